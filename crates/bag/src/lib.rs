@@ -1,0 +1,1 @@
+//! Bags in rosbag2's MCAP profile: record and read.

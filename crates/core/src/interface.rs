@@ -1,0 +1,123 @@
+//! What a core is connected to.
+
+use trench_msgs::{ServiceInfo, TypeInfo};
+
+/// Whether lost samples are sent again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reliability {
+    /// They are not: for streams of which only the newest matters.
+    BestEffort,
+    /// They are.
+    Reliable,
+}
+
+/// Whether late joiners get what was sent before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Durability {
+    /// They do not.
+    Volatile,
+    /// They get the last `depth` samples: a "latched" topic.
+    TransientLocal,
+}
+
+/// Quality of service of one end of a topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Qos {
+    /// Whether lost samples are sent again.
+    pub reliability: Reliability,
+    /// Whether late joiners get what was sent before.
+    pub durability: Durability,
+    /// How many samples are kept (keep last).
+    pub depth: usize,
+}
+
+impl Qos {
+    /// Newest only, loss allowed: images, scans.
+    pub const SENSOR: Self =
+        Self { reliability: Reliability::BestEffort, durability: Durability::Volatile, depth: 1 };
+    /// Every sample, in order.
+    pub const RELIABLE: Self = Self { reliability: Reliability::Reliable, durability: Durability::Volatile, depth: 16 };
+    /// Late joiners get the last sample.
+    pub const LATCHED: Self =
+        Self { reliability: Reliability::Reliable, durability: Durability::TransientLocal, depth: 1 };
+}
+
+/// Which transports a publication uses besides the network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Local {
+    /// The network alone.
+    NetworkOnly,
+    /// Shared memory to readers of this host, the network to all others. `max_len`: the largest message in bytes.
+    SharedMemory {
+        /// Bytes to reserve for one message.
+        max_len: usize,
+    },
+    /// Shared memory alone, unless the process is told to send it over the network too (images for viewers).
+    SharedMemoryOnly {
+        /// Bytes to reserve for one message.
+        max_len: usize,
+    },
+}
+
+/// A topic that the core reads.
+#[derive(Debug, Clone)]
+pub struct Subscribe {
+    /// Absolute (`/team_state`), relative to the namespace (`cmd_vel`) or private (`~/x`); remapped by the process.
+    pub topic: String,
+    /// Its type.
+    pub type_info: &'static TypeInfo,
+    /// What this end asks for.
+    pub qos: Qos,
+}
+
+/// A topic that the core writes.
+#[derive(Debug, Clone)]
+pub struct Advertise {
+    /// As in [`Subscribe`].
+    pub topic: String,
+    /// Its type.
+    pub type_info: &'static TypeInfo,
+    /// What this end offers.
+    pub qos: Qos,
+    /// Whether readers of the same host get it through shared memory.
+    pub local: Local,
+}
+
+/// A service that the core answers.
+#[derive(Debug, Clone)]
+pub struct Serve {
+    /// As a topic's name; `~/arm` is usual.
+    pub name: String,
+    /// Its type.
+    pub service: ServiceInfo,
+}
+
+/// A line of bytes in and out.
+#[derive(Debug, Clone)]
+pub enum ByteStream {
+    /// A serial device (or the slave of a pseudo-terminal). It may vanish and come back: the process reopens it.
+    Serial {
+        /// The device file.
+        path: String,
+        /// Bits per second.
+        baud: u32,
+    },
+    /// A new pseudo-terminal, of which the core is the master; a link to the slave is made at `link`.
+    PseudoTerminal {
+        /// Where the link to the slave goes.
+        link: String,
+    },
+}
+
+/// All that a core is connected to. Indices into these lists are what [`crate::Event`] and [`crate::Sink`] name.
+#[derive(Debug, Clone, Default)]
+pub struct Interface {
+    /// Topics read.
+    pub subscriptions: Vec<Subscribe>,
+    /// Topics written.
+    pub publications: Vec<Advertise>,
+    /// Services answered.
+    pub services: Vec<Serve>,
+    /// Byte streams.
+    pub byte_streams: Vec<ByteStream>,
+}

@@ -1,0 +1,73 @@
+//! The two clocks (invariant 9).
+
+use trench_msgs::builtin_interfaces::{Duration, Time};
+
+/// ROS time in nanoseconds since its epoch: the system clock, or /clock with `use_sim_time`. Control uses it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct RosTime(pub i64);
+
+/// Monotonic time in nanoseconds since an arbitrary start, the same for all processes of a host. Every safety time-out
+/// uses it: a paused /clock or a jump of the wall clock never keeps a robot driving.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Steady(pub u64);
+
+/// When an event reached the core.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Times {
+    /// ROS time at receipt.
+    pub ros: RosTime,
+    /// Monotonic time at receipt.
+    pub steady: Steady,
+}
+
+impl RosTime {
+    /// Seconds from `earlier` to this time, negative if it is later.
+    #[must_use]
+    pub fn seconds_since(self, earlier: Self) -> f64 {
+        self.0.saturating_sub(earlier.0) as f64 * 1e-9
+    }
+
+    /// This time moved by `seconds`.
+    #[must_use]
+    pub fn plus_seconds(self, seconds: f64) -> Self {
+        Self(self.0.saturating_add((seconds * 1e9) as i64))
+    }
+}
+
+impl Steady {
+    /// Seconds from `earlier` to this time; 0 if `earlier` is later.
+    #[must_use]
+    pub fn seconds_since(self, earlier: Self) -> f64 {
+        self.0.saturating_sub(earlier.0) as f64 * 1e-9
+    }
+
+    /// This time moved forward by `seconds` (0 if negative).
+    #[must_use]
+    pub fn plus_seconds(self, seconds: f64) -> Self {
+        Self(self.0.saturating_add((seconds.max(0.0) * 1e9) as u64))
+    }
+}
+
+impl From<&Time> for RosTime {
+    fn from(time: &Time) -> Self {
+        Self(i64::from(time.sec) * 1_000_000_000 + i64::from(time.nanosec))
+    }
+}
+
+impl From<RosTime> for Time {
+    fn from(time: RosTime) -> Self {
+        // Seconds outside 32 bits cannot be said in a ROS message: saturate rather than wrap to another era.
+        let seconds = time.0.div_euclid(1_000_000_000).clamp(i64::from(i32::MIN), i64::from(i32::MAX));
+        Self { sec: seconds as i32, nanosec: time.0.rem_euclid(1_000_000_000) as u32 }
+    }
+}
+
+/// A duration message from seconds.
+#[must_use]
+pub fn duration_from_seconds(seconds: f64) -> Duration {
+    let nanoseconds = (seconds * 1e9) as i64;
+    Duration {
+        sec: nanoseconds.div_euclid(1_000_000_000) as i32,
+        nanosec: nanoseconds.rem_euclid(1_000_000_000) as u32,
+    }
+}

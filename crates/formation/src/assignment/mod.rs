@@ -1,0 +1,1 @@
+//! Assignment of robots to queues and places.

@@ -1,0 +1,1 @@
+//! Curves of segments: arc length, tangent, curvature, nearest points.

@@ -1,0 +1,1 @@
+//! Convex hulls, clearance, combined hulls (7.4).

@@ -1,0 +1,1 @@
+//! Control laws of chapters 3 to 7.

@@ -1,0 +1,1 @@
+//! The safety filter that ends every law.

@@ -1,0 +1,1 @@
+//! Zoning potentials of chapter 6.

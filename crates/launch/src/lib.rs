@@ -1,0 +1,1 @@
+//! ROS 2 launch files in YAML: parse, resolve, start and supervise.

@@ -1,0 +1,1 @@
+//! The simulated test bed: plants, motors, bodies, camera renderer, radio medium, firmware.

@@ -1,0 +1,1 @@
+//! Drives one robot to its place in the formation.

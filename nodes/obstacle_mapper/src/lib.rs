@@ -1,0 +1,1 @@
+//! Turns obstacles into apparent obstacles.

@@ -1,0 +1,1 @@
+//! Carries wheel commands to the robots and telemetry back over the radio base station's serial port.

@@ -1,0 +1,1 @@
+//! The simulated test bed behind the real interfaces: camera frames out, serial bytes in.
