@@ -36,6 +36,13 @@ pub enum Event<'a> {
         /// The request message.
         cdr: &'a [u8],
     },
+    /// The answer to a request made by `Sink::call`.
+    Response {
+        /// Index into `Interface::clients`.
+        client: usize,
+        /// The response message, or nothing when no server answered within the process's time limit (5 s).
+        cdr: Option<&'a [u8]>,
+    },
     /// Bytes read from `Interface::byte_streams[stream]`, however the line cut them.
     Bytes {
         /// Index into `Interface::byte_streams`.

@@ -83,7 +83,7 @@ pub struct Advertise {
     pub local: Local,
 }
 
-/// A service that the core answers.
+/// A service that the core answers, or calls.
 #[derive(Debug, Clone)]
 pub struct Serve {
     /// As a topic's name; `~/arm` is usual.
@@ -118,6 +118,8 @@ pub struct Interface {
     pub publications: Vec<Advertise>,
     /// Services answered.
     pub services: Vec<Serve>,
+    /// Services called.
+    pub clients: Vec<Serve>,
     /// Byte streams.
     pub byte_streams: Vec<ByteStream>,
 }

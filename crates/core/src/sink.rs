@@ -33,6 +33,9 @@ pub trait Sink {
     /// Answers a request.
     fn respond(&mut self, service: usize, id: RequestId, response: &dyn Encode);
 
+    /// Calls a service of `Interface::clients`; the answer comes as `Event::Response`, in the order of the calls.
+    fn call(&mut self, client: usize, request: &dyn Encode);
+
     /// Writes to `Interface::byte_streams[stream]`. Bytes to a closed stream are lost.
     fn write_bytes(&mut self, stream: usize, bytes: &[u8]);
 
