@@ -33,8 +33,7 @@ pub struct Qos {
 
 impl Qos {
     /// Newest only, loss allowed: images, scans.
-    pub const SENSOR: Self =
-        Self { reliability: Reliability::BestEffort, durability: Durability::Volatile, depth: 1 };
+    pub const SENSOR: Self = Self { reliability: Reliability::BestEffort, durability: Durability::Volatile, depth: 1 };
     /// Every sample, in order.
     pub const RELIABLE: Self = Self { reliability: Reliability::Reliable, durability: Durability::Volatile, depth: 16 };
     /// Late joiners get the last sample.

@@ -9,14 +9,18 @@
 
 mod description;
 mod event;
+mod health;
 mod interface;
 mod node_core;
+mod outbox;
 mod sink;
 mod time;
 
 pub use description::{Build, Files, NodeDescription};
 pub use event::{Event, RequestId, Source};
+pub use health::{Condition, Health};
 pub use interface::{Advertise, ByteStream, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe};
 pub use node_core::{NodeContext, NodeCore, StartError};
+pub use outbox::{Action, Outbox};
 pub use sink::{Level, Sink};
 pub use time::{RosTime, Steady, Times, duration_from_seconds};
