@@ -4,6 +4,8 @@
 //! [`zoning`] 6, [`hull`] 7.4, [`assignment`] and [`chain`] 2.1, 6.2.1, [`safety`] DESIGN invariant 8.
 //!
 //! Units are SI, angles radians, frames `map` unless a name says otherwise.
+pub use nalgebra::Vector2;
+
 pub mod kinematics;
 pub mod laws;
 pub mod stability;

@@ -1,1 +1,26 @@
-//! Control laws of chapters 3 to 7.
+//! Control laws of chapters 3 to 6.
+//!
+//! The kinematic laws are pure functions of [`Polar`]; [`Tracking`] carries (3.13) over to goal points that move.
+mod dead_band;
+mod direct;
+mod family;
+mod lyapunov;
+mod nominal;
+mod robust;
+mod tracking;
+
+use crate::kinematics::{Polar, Twist};
+
+pub use dead_band::DeadBand;
+pub use direct::Direct;
+pub use family::Family;
+pub use lyapunov::Lyapunov;
+pub use nominal::Nominal;
+pub use robust::Robust;
+pub use tracking::{GoalMotion, Tracked, Tracking};
+
+/// A point tracking law of chapter 4: the velocity it commands at given polar coordinates of a resting goal point.
+pub trait PointLaw {
+    /// v and omega at r and phi.
+    fn twist(&self, polar: Polar) -> Twist;
+}
