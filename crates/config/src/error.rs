@@ -1,14 +1,28 @@
 //! Errors a user can act on.
 
 use std::fmt;
+use std::sync::Arc;
 
 /// Where a value came from.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
     /// The file, or a word such as "command line" or "default".
-    pub file: String,
+    pub file: Arc<str>,
     /// Line, from 1; 0 where there is none.
     pub line: usize,
+}
+
+impl Origin {
+    /// A line of a file.
+    pub fn new(file: impl Into<Arc<str>>, line: usize) -> Self {
+        Self { file: file.into(), line }
+    }
+}
+
+impl Default for Origin {
+    fn default() -> Self {
+        Self::new("", 0)
+    }
 }
 
 impl fmt::Display for Origin {
@@ -21,17 +35,41 @@ impl fmt::Display for Origin {
 }
 
 /// One thing that is wrong with configuration: where, which key, which value, what is wrong, what would be right.
+///
+/// ```
+/// # use trench_config::{ConfigError, Origin};
+/// let error = ConfigError {
+///     origin: Origin::new("square.yaml", 7),
+///     key: "queues[2].share".to_owned(),
+///     value: "1.5".to_owned(),
+///     problem: "is above 1".to_owned(),
+///     remedy: "write a share from 0 to 1".to_owned(),
+/// };
+/// assert_eq!(error.to_string(), "square.yaml:7: queues[2].share = 1.5: is above 1; write a share from 0 to 1");
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{origin}: {key}{}{value}: {problem}; {remedy}", if value.is_empty() { "" } else { " = " })]
+#[error("{}", self.text())]
 pub struct ConfigError {
     /// File and line.
     pub origin: Origin,
-    /// The key's full path, for example `gains.k1` or `queues[2].share`.
+    /// The key's full path, for example `gains.k1` or `queues[2].share`; empty for a file as a whole.
     pub key: String,
     /// The value as written; empty where it is missing.
     pub value: String,
     /// What is wrong.
     pub problem: String,
-    /// What would be right.
+    /// What would be right; empty where the problem says it all.
     pub remedy: String,
+}
+
+impl ConfigError {
+    fn text(&self) -> String {
+        let mut subject = self.key.clone();
+        if !self.value.is_empty() {
+            subject = if subject.is_empty() { self.value.clone() } else { format!("{subject} = {}", self.value) };
+        }
+        let parts = [self.origin.to_string(), subject, self.problem.clone()];
+        let text = parts.iter().filter(|part| !part.is_empty()).map(String::as_str).collect::<Vec<_>>().join(": ");
+        if self.remedy.is_empty() { text } else { format!("{text}; {}", self.remedy) }
+    }
 }
