@@ -1,0 +1,122 @@
+//! The test vectors of docs/protocols/radio.md: bytes made and read back.
+#![expect(clippy::expect_used, clippy::panic, reason = "a test ends where its vector is missing")]
+
+use trench_radio::{
+    Ack, AckStatus, Commands, Fault, Key, LinkFrame, Packet, Payload, Ranges, RobotSet, StreamDecoder, Telemetry,
+    WheelTimer, Wheels,
+};
+
+const DOCUMENT: &str = include_str!("../../../docs/protocols/radio.md");
+
+fn key() -> Key {
+    Key::new(std::array::from_fn(|index| index as u8))
+}
+
+/// The bytes that the document's table gives for `name`.
+fn documented(name: &str) -> Vec<u8> {
+    let row = DOCUMENT.lines().find(|line| line.starts_with(&format!("| {name} |")));
+    let row = row.unwrap_or_else(|| panic!("docs/protocols/radio.md has no vector {name}"));
+    let hex = row.split('|').nth(2).expect("a second column").trim().trim_matches('`');
+    hex.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect("a byte")).collect()
+}
+
+fn check(name: &str, line: &[u8]) {
+    let hex: Vec<String> = line.iter().map(|byte| format!("{byte:02x}")).collect();
+    assert_eq!(documented(name), line, "{name} is {}", hex.join(" "));
+}
+
+/// A packet to the robots, over the line and back.
+fn check_downlink(name: &str, packet: Packet, key: Option<&Key>) {
+    let (mut bytes, mut line) = (Vec::new(), Vec::new());
+    packet.encode(key, &mut bytes);
+    LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
+    check(name, &line);
+    let mut seen = 0;
+    StreamDecoder::default().push(&line, |frame| match frame {
+        LinkFrame::Downlink { packet: bytes } => {
+            assert_eq!(Packet::decode(bytes, key), Ok(packet));
+            seen += 1;
+        }
+        other => panic!("{other:?}"),
+    });
+    assert_eq!(seen, 1);
+}
+
+fn wheels(left: f64, right: f64) -> Wheels {
+    Wheels { left: WheelTimer::from_speed(left), right: WheelTimer::from_speed(right) }
+}
+
+fn two_robots() -> Payload {
+    let mut commands = Commands { validity_ms: 80, ..Commands::default() };
+    commands.wheels[1] = Some(wheels(0.2, -0.1));
+    commands.wheels[4] = Some(wheels(0.0, 0.3));
+    Payload::Commands(commands)
+}
+
+#[test]
+fn commands() {
+    check_downlink("commands", Packet { relayed: 0, counter: 0x0102_0304_0506, payload: two_robots() }, None);
+    check_downlink("commands with tag", Packet { relayed: 0, counter: 7, payload: two_robots() }, Some(&key()));
+    check_downlink("commands relayed twice", Packet { relayed: 2, counter: 7, payload: two_robots() }, Some(&key()));
+}
+
+#[test]
+fn stop_and_reset() {
+    let packet = |payload| Packet { relayed: 0, counter: 8, payload };
+    check_downlink("emergency stop", packet(Payload::EmergencyStop(RobotSet::ALL)), None);
+    check_downlink("reset", packet(Payload::Reset(RobotSet(0b1_0010))), Some(&key()));
+}
+
+#[test]
+fn telemetry() {
+    let telemetry = Telemetry {
+        robot: 4,
+        fault: Fault(Fault::LOW_BATTERY.0 | Fault::MISSED_STEPS.0),
+        last_counter: 0x0506,
+        last_age_ms: 12,
+        missed: 300,
+        battery_mv: 7400,
+        signal_dbm: -61,
+        steps_left: -2,
+        steps_right: 70_000,
+        uptime_ms: 3_600_000,
+        ranges: Ranges::new(&[35, 255, 12, 80]),
+    };
+    let packet = Packet { relayed: 0, counter: 9, payload: Payload::Telemetry(telemetry) };
+    let (mut bytes, mut line) = (Vec::new(), Vec::new());
+    packet.encode(Some(&key()), &mut bytes);
+    LinkFrame::Uplink { signal_dbm: -58, wait_ms: 3, packet: &bytes }.encode(&mut line);
+    check("telemetry", &line);
+    let mut seen = 0;
+    StreamDecoder::default().push(&line, |frame| {
+        assert_eq!(frame, LinkFrame::Uplink { signal_dbm: -58, wait_ms: 3, packet: &bytes });
+        seen += 1;
+    });
+    assert_eq!((seen, Packet::decode(&bytes, Some(&key()))), (1, Ok(packet)));
+}
+
+#[test]
+fn acknowledgement() {
+    let ack = Ack { counter: 0x0102_0304_0506, status: AckStatus::Expired, wait_ms: 1 };
+    let mut line = Vec::new();
+    LinkFrame::Ack(ack).encode(&mut line);
+    check("acknowledgement", &line);
+    let mut seen = 0;
+    StreamDecoder::default().push(&line, |frame| {
+        assert_eq!(frame, LinkFrame::Ack(ack));
+        seen += 1;
+    });
+    assert_eq!(seen, 1);
+}
+
+#[test]
+fn twenty_robots_with_tag_fit_into_ten_milliseconds() {
+    let mut commands = Commands { validity_ms: 80, ..Commands::default() };
+    commands.wheels[..20].fill(Some(wheels(0.25, -0.25)));
+    let packet = Packet { relayed: 0, counter: 1, payload: Payload::Commands(commands) };
+    let (mut bytes, mut line) = (Vec::new(), Vec::new());
+    packet.encode(Some(&key()), &mut bytes);
+    LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
+    assert_eq!(line.len(), 111);
+    assert!(line.len() as f64 * 10.0 / 115_200.0 < 0.010);
+}
