@@ -12,13 +12,16 @@
 //! x86-64.
 
 mod camera;
+mod camera_info;
 mod distortion;
 mod lens;
 mod mount;
+mod mount_file;
 mod pad;
 mod ray_table;
 
 pub use camera::{Camera, CameraError};
+pub use camera_info::CameraInfo;
 pub use distortion::PlumbBob;
 pub use lens::{Lens, LensError, Pixel};
 pub use mount::{Mount, MountError};
