@@ -1,0 +1,105 @@
+//! Bounding boxes over consecutive pieces, in a complete binary tree: pieces are already sorted along the curve.
+use super::piece::Piece;
+use nalgebra::Vector2;
+
+/// Axis-aligned box; empty if `low > high`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Bounds {
+    low: Vector2<f64>,
+    high: Vector2<f64>,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self {
+        low: Vector2::new(f64::INFINITY, f64::INFINITY),
+        high: Vector2::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    fn of(piece: &Piece) -> Self {
+        let margin = Vector2::repeat(piece.sagitta);
+        Self { low: piece.start.inf(&piece.end) - margin, high: piece.start.sup(&piece.end) + margin }
+    }
+
+    fn union(&self, other: &Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
+    /// Distance from `point`; infinite if empty.
+    fn distance(&self, point: Vector2<f64>) -> f64 {
+        (self.low - point).sup(&(point - self.high)).sup(&Vector2::zeros()).norm()
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+    }
+}
+
+/// Node 1 is the root, 2 n and 2 n + 1 are the children of n, leaf i is node `leaves` + i.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BoxTree {
+    nodes: Vec<Bounds>,
+    leaves: usize,
+}
+
+impl BoxTree {
+    pub(super) fn new(pieces: &[Piece]) -> Self {
+        let leaves = pieces.len().next_power_of_two();
+        let mut nodes = vec![Bounds::EMPTY; 2 * leaves];
+        for (node, piece) in nodes[leaves..].iter_mut().zip(pieces) {
+            *node = Bounds::of(piece);
+        }
+        for i in (1..leaves).rev() {
+            nodes[i] = nodes[2 * i].union(&nodes[2 * i + 1]);
+        }
+        Self { nodes, leaves }
+    }
+
+    /// Calls `visit` with every piece whose box is within `reach` of `point`, nearer boxes first; `visit` returns the
+    /// reach from then on.
+    pub(super) fn visit_near(&self, point: Vector2<f64>, mut reach: f64, mut visit: impl FnMut(usize) -> f64) {
+        let mut stack = [(0, 0.0); usize::BITS as usize + 1];
+        stack[0] = (1, self.nodes[1].distance(point));
+        let mut used = 1;
+        while used > 0 {
+            used -= 1;
+            let (node, distance) = stack[used];
+            if distance > reach || distance == f64::INFINITY {
+                continue;
+            }
+            if node >= self.leaves {
+                reach = visit(node - self.leaves);
+                continue;
+            }
+            let left = (2 * node, self.nodes[2 * node].distance(point));
+            let right = (2 * node + 1, self.nodes[2 * node + 1].distance(point));
+            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
+            stack[used] = far;
+            stack[used + 1] = near;
+            used += 2;
+        }
+    }
+
+    /// All pairs (i, j), i < j, of pieces whose boxes meet.
+    pub(super) fn meeting_pairs(&self) -> Vec<(usize, usize)> {
+        let mut pairs = Vec::new();
+        let mut stack = vec![(1, 1)];
+        while let Some((a, b)) = stack.pop() {
+            if !self.nodes[a].meets(&self.nodes[b]) {
+                continue;
+            }
+            match (a >= self.leaves, a == b) {
+                (true, true) => {}
+                (true, false) => pairs.push((a - self.leaves, b - self.leaves)),
+                (false, true) => stack.extend([(2 * a + 1, 2 * a + 1), (2 * a, 2 * a + 1), (2 * a, 2 * a)]),
+                (false, false) => {
+                    stack.extend([2 * a, 2 * a + 1].into_iter().flat_map(|l| [(l, 2 * b), (l, 2 * b + 1)]));
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs
+    }
+}

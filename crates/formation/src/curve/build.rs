@@ -1,0 +1,135 @@
+//! From a description to primitives and pieces.
+use super::{
+    Curve, box_tree::BoxTree, error::CurveError, piece::cut, primitive::Primitive, shape::CurveShape, simple, spline,
+};
+use core::f64::consts::TAU;
+use nalgebra::Vector2;
+
+/// A primitive and its parameter interval.
+type Span = (Primitive, (f64, f64));
+
+impl Curve {
+    /// Builds the curve. `open_start` and `open_end` let it extend beyond its first and last point along the tangent
+    /// there (an open queue).
+    ///
+    /// # Errors
+    /// See [`CurveError`]: numbers that are not finite, length zero, too few points, cusps, self-intersections.
+    pub fn new(shape: &CurveShape, open_start: bool, open_end: bool) -> Result<Self, CurveError> {
+        let (spans, closed) = spans(shape)?;
+        if closed && (open_start || open_end) {
+            return Err(CurveError::ClosedCurveExtended);
+        }
+        let (mut pieces, mut primitives, mut length) = (Vec::new(), Vec::new(), 0.0);
+        for (index, (primitive, interval)) in spans.into_iter().enumerate() {
+            length = cut(&primitive, index, interval, length, &mut pieces)?;
+            primitives.push(primitive);
+        }
+        let tree = BoxTree::new(&pieces);
+        let curve = Self { primitives, pieces, tree, length, closed, open_start, open_end };
+        simple::check(&curve)?;
+        Ok(curve)
+    }
+}
+
+/// Primitives in order, and whether the last ends where the first begins.
+fn spans(shape: &CurveShape) -> Result<(Vec<Span>, bool), CurveError> {
+    match shape {
+        CurveShape::Line(start, end) => Ok((lines(&[*start, *end])?, false)),
+        CurveShape::Polyline(corners) => {
+            at_least_two("a polyline", corners)?;
+            Ok((lines(corners)?, corners.first() == corners.last()))
+        }
+        CurveShape::Spline(knots) => {
+            at_least_two("a spline", knots)?;
+            apart(knots)?;
+            let pieces = spline::natural_cubic(knots).into_iter().map(|cubic| (cubic, (0.0, 1.0))).collect();
+            Ok((pieces, knots.first() == knots.last()))
+        }
+        CurveShape::Bezier(control) => bezier(control),
+        &CurveShape::Arc { centre, radius, start_angle, sweep } => arc(centre, radius, start_angle, sweep),
+        &CurveShape::Ellipse { centre, semi_axes: [a, b], rotation } => {
+            all_finite("a point", &[centre])?;
+            let (a, b) = (positive("the first semi-axis", a)?, positive("the second semi-axis", b)?);
+            let direction = unit(finite("the rotation", rotation)?);
+            let primitive = Primitive::Ellipse { centre, cosine: a * direction, sine: b * left_of(direction) };
+            Ok((vec![(primitive, (0.0, TAU))], true))
+        }
+        &CurveShape::Sinusoid { origin, direction, length, amplitude, wavelength, phase } => {
+            all_finite("a point", &[origin])?;
+            let along = unit(finite("the direction", direction)?);
+            let length = positive("the length", length)?;
+            let wave_number = TAU / positive("the wavelength", wavelength)?;
+            let across = finite("the amplitude", amplitude)? * left_of(along);
+            let phase = finite("the phase", phase)?;
+            Ok((vec![(Primitive::Sinusoid { origin, along, across, wave_number, phase }, (0.0, length))], false))
+        }
+    }
+}
+
+fn lines(corners: &[Vector2<f64>]) -> Result<Vec<Span>, CurveError> {
+    apart(corners)?;
+    let line = |pair: &[Vector2<f64>]| {
+        let (start, chord) = (pair[0], pair[1] - pair[0]);
+        let length = chord.norm();
+        (Primitive::Line { start, direction: chord / length }, (0.0, length))
+    };
+    Ok(corners.windows(2).map(line).collect())
+}
+
+fn bezier(control: &[Vector2<f64>]) -> Result<(Vec<Span>, bool), CurveError> {
+    if control.len() < 4 || control.len() % 3 != 1 {
+        let expected = "4, 7, 10, ... (3 n + 1)";
+        return Err(CurveError::PointCount { shape: "a Bezier curve", got: control.len(), expected });
+    }
+    all_finite("a control point", control)?;
+    let piece = |i: usize| [control[i], control[i + 1], control[i + 2], control[i + 3]];
+    let cubics = (0..control.len() - 1).step_by(3).map(|i| (Primitive::bezier(piece(i)), (0.0, 1.0))).collect();
+    Ok((cubics, control.first() == control.last()))
+}
+
+fn arc(centre: Vector2<f64>, radius: f64, start_angle: f64, sweep: f64) -> Result<(Vec<Span>, bool), CurveError> {
+    all_finite("the centre", &[centre])?;
+    let radius = positive("the radius", radius)?;
+    let start = unit(finite("the start angle", start_angle)?);
+    let turned = finite("the sweep", sweep)?.abs();
+    if turned == 0.0 || turned > TAU * (1.0 + 1e-12) {
+        return Err(CurveError::Sweep(sweep));
+    }
+    let sine = radius * sweep.signum() * left_of(start);
+    let primitive = Primitive::Ellipse { centre, cosine: radius * start, sine };
+    Ok((vec![(primitive, (0.0, turned))], turned >= TAU * (1.0 - 1e-12)))
+}
+
+fn at_least_two(shape: &'static str, points: &[Vector2<f64>]) -> Result<(), CurveError> {
+    let expected = "two or more";
+    if points.len() < 2 { Err(CurveError::PointCount { shape, got: points.len(), expected }) } else { Ok(()) }
+}
+
+fn apart(points: &[Vector2<f64>]) -> Result<(), CurveError> {
+    all_finite("a point", points)?;
+    match points.windows(2).position(|pair| (pair[1] - pair[0]).norm() == 0.0) {
+        Some(first) => Err(CurveError::RepeatedPoint(first, first + 1)),
+        None => Ok(()),
+    }
+}
+
+fn all_finite(what: &'static str, points: &[Vector2<f64>]) -> Result<(), CurveError> {
+    points.iter().try_for_each(|point| finite(what, point.x + point.y).map(drop))
+}
+
+fn finite(what: &'static str, value: f64) -> Result<f64, CurveError> {
+    if value.is_finite() { Ok(value) } else { Err(CurveError::NotFinite { what }) }
+}
+
+fn positive(what: &'static str, value: f64) -> Result<f64, CurveError> {
+    if finite(what, value)? > 0.0 { Ok(value) } else { Err(CurveError::NotPositive { what, value }) }
+}
+
+fn unit(angle: f64) -> Vector2<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    Vector2::new(cosine, sine)
+}
+
+fn left_of(direction: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-direction.y, direction.x)
+}

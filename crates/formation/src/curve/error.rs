@@ -1,0 +1,59 @@
+//! Why a curve cannot be built, and what would make it possible.
+use thiserror::Error;
+
+/// A curve's description that names no usable segment (Definition 2.1.2). The text says what is wrong and what to do.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CurveError {
+    /// A coordinate, angle or length is NaN or infinite.
+    #[error("{what} is not a finite number: give a finite value in metres or radians")]
+    NotFinite {
+        /// Which value.
+        what: &'static str,
+    },
+    /// Too few or a wrong number of points.
+    #[error("{shape} has {got} points but needs {expected}: add or remove points")]
+    PointCount {
+        /// Kind of curve.
+        shape: &'static str,
+        /// Points given.
+        got: usize,
+        /// Points needed, in words.
+        expected: &'static str,
+    },
+    /// Two points in a row coincide, so a piece has no direction.
+    #[error("points {0} and {1} coincide, so the piece between them has length zero: remove one of them")]
+    RepeatedPoint(usize, usize),
+    /// A radius, length, semi-axis or wavelength that must be positive is not.
+    #[error("{what} is {value}, but must be greater than zero")]
+    NotPositive {
+        /// Which value.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// An arc of sweep zero or of more than one turn.
+    #[error("an arc's sweep is {0} rad, but must be in [-2 pi, 2 pi] and not zero")]
+    Sweep(f64),
+    /// The tangent vanishes or turns at once, so the curve is not twice differentiable there.
+    #[error(
+        "the curve has a cusp (a point without a tangent) after {arc_length} m: move the control points near it apart"
+    )]
+    Cusp {
+        /// Distance along the curve, metres.
+        arc_length: f64,
+    },
+    /// The curve meets itself, so arc length along it does not order robots.
+    #[error(
+        "the curve meets itself after {first} m and after {second} m: move the points between, or split it into two \
+         segments"
+    )]
+    SelfIntersection {
+        /// Distance along the curve of the first passage, metres.
+        first: f64,
+        /// Distance along the curve of the second passage, metres.
+        second: f64,
+    },
+    /// A closed curve has no ends, so it cannot extend beyond them.
+    #[error("a closed curve has no end to extend from: set open_start and open_end to false")]
+    ClosedCurveExtended,
+}

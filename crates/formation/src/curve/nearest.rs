@@ -1,0 +1,205 @@
+//! Nearest points of a curve, (7.1) and (7.2): certified, with multiplicity.
+use super::minimum::{Minimum, interior_minima, solve};
+use super::{Curve, Foot};
+use nalgebra::Vector2;
+
+/// Distances that differ by no more than this (times 1 m + the distance) are equal.
+const TIE: f64 = 1e-9;
+/// Minima nearer to each other along the curve than this (m) are one.
+const SAME: f64 = 1e-7;
+
+/// All points of a curve at the least distance from a point, (7.2).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct NearestSet {
+    /// The isolated ones, by arc length.
+    pub feet: Vec<Foot>,
+    /// Arc length intervals that are nearest as a whole: the point is the centre of an arc.
+    pub ranges: Vec<(f64, f64)>,
+}
+
+/// Where a foot is: on a piece at a parameter, or on an extension.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    On(usize, f64),
+    Before(f64),
+    After(f64),
+}
+
+impl Curve {
+    /// A nearest point of the curve: the one of least arc length if there are several on a par to the last bit.
+    pub fn nearest(&self, point: Vector2<f64>) -> Foot {
+        let mut best = (f64::INFINITY, 0, self.pieces[0].from);
+        self.tree.visit_near(point, best.0, |index| {
+            let piece = &self.pieces[index];
+            let mut offer = |distance: f64, parameter: f64| {
+                let candidate = (distance, index, parameter);
+                if candidate < best {
+                    best = candidate;
+                }
+                best.0
+            };
+            offer((piece.start - point).norm(), piece.from);
+            let reach = offer((piece.end - point).norm(), piece.to);
+            interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| match minimum {
+                Minimum::At { parameter, distance, .. } => offer(distance, parameter),
+                Minimum::Everywhere { distance } => offer(distance, piece.from),
+            });
+            best.0
+        });
+        let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.0);
+        let extension = nearer.min_by(|a, b| a.0.total_cmp(&b.0));
+        self.foot(extension.map_or(Place::On(best.1, best.2), |(_, place)| place), point)
+    }
+
+    /// All nearest points, with none missed: equal to within 1e-9 (1 m + distance).
+    pub fn nearest_all(&self, point: Vector2<f64>) -> NearestSet {
+        let distance = self.nearest(point).distance;
+        let reach = distance + TIE * (1.0 + distance);
+        let mut set = NearestSet::default();
+        let mut places: Vec<(Place, f64)> =
+            self.extensions(point).filter(|(distance, _)| *distance <= reach).map(|(_, place)| (place, 0.0)).collect();
+        self.tree.visit_near(point, reach, |index| {
+            let piece = &self.pieces[index];
+            for (joint, end, parameter) in [(index, piece.start, piece.from), (index + 1, piece.end, piece.to)] {
+                if (end - point).norm() <= reach && self.is_minimum_at_joint(joint, end - point) {
+                    places.push((Place::On(index, parameter), 0.0));
+                }
+            }
+            interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| {
+                match minimum {
+                    Minimum::At { parameter, distance, width } if distance <= reach => {
+                        places.push((Place::On(index, parameter), width * piece.length / (piece.to - piece.from)));
+                    }
+                    Minimum::At { .. } => {}
+                    Minimum::Everywhere { .. } => set.ranges.push((piece.offset, piece.offset + piece.length)),
+                }
+                reach
+            });
+            reach
+        });
+        let mut feet: Vec<(Foot, f64)> =
+            places.into_iter().map(|(place, width)| (self.foot(place, point), width)).collect();
+        feet.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
+        join_ranges(&mut set.ranges);
+        set.feet = self.distinct(feet, &set.ranges);
+        set
+    }
+
+    /// Follows the local minimum of the distance that a foot at `arc_length` belongs to, for a point that moved a
+    /// little (a robot that keeps its own nearest point, Assumption 7.2.1). It need not be the global minimum.
+    pub fn track(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
+        let count = self.pieces.len();
+        let (mut index, mut parameter) = self.locate(arc_length.clamp(0.0, self.length));
+        for _ in 0..=count {
+            let piece = &self.pieces[index];
+            let primitive = &self.primitives[piece.primitive];
+            let slope = |u: f64| {
+                let jet = primitive.evaluate(u);
+                (jet.point - point).dot(&jet.first)
+            };
+            let forward = slope(parameter) < 0.0;
+            let end = if forward { piece.to } else { piece.from };
+            if (slope(end) < 0.0) != forward {
+                let bracket = if forward { (parameter, end) } else { (end, parameter) };
+                return self.foot(Place::On(index, solve(primitive, bracket, parameter, point)), point);
+            }
+            parameter = end;
+            let leaves = if forward { index + 1 == count } else { index == 0 };
+            if leaves && !self.closed {
+                let beyond =
+                    |place: &Place| matches!((place, forward), (Place::Before(_), false) | (Place::After(_), true));
+                let extension = self.extensions(point).map(|(_, place)| place).find(beyond);
+                return self.foot(extension.unwrap_or(Place::On(index, parameter)), point);
+            }
+            let next = if forward { (index + 1) % count } else { (index + count - 1) % count };
+            let entry = if forward { self.pieces[next].from } else { self.pieces[next].to };
+            let jet = self.primitives[self.pieces[next].primitive].evaluate(entry);
+            if ((jet.point - point).dot(&jet.first) < 0.0) != forward {
+                break; // a corner: the distance grows on both sides of it
+            }
+            (index, parameter) = (next, entry);
+        }
+        self.foot(Place::On(index, parameter), point)
+    }
+
+    /// Feet on the tangents beyond open ends, with their distances.
+    fn extensions(&self, point: Vector2<f64>) -> impl Iterator<Item = (f64, Place)> {
+        let (first, last) = (self.at_end(false), self.at_end(true));
+        let before = (first.0 - point).dot(&first.1);
+        let after = (point - last.0).dot(&last.1);
+        let start = (self.open_start && before > 0.0)
+            .then(|| ((first.0 - before * first.1 - point).norm(), Place::Before(before)));
+        let end =
+            (self.open_end && after > 0.0).then(|| ((last.0 + after * last.1 - point).norm(), Place::After(after)));
+        start.into_iter().chain(end)
+    }
+
+    /// Whether the distance falls towards the start of piece `joint` from neither side; `away` points to the joint.
+    fn is_minimum_at_joint(&self, joint: usize, away: Vector2<f64>) -> bool {
+        let slack = 1e-9 * away.norm();
+        let (count, at) = (self.pieces.len(), if self.closed { joint % self.pieces.len() } else { joint });
+        let before = (at > 0 || self.closed).then(|| self.tangents_around(at).0);
+        let after = (at < count).then(|| self.tangents_around(at).1);
+        let start = if self.open_start { Some(self.at_end(false).1) } else { None };
+        let end = if self.open_end { Some(self.at_end(true).1) } else { None };
+        before.or(start).is_none_or(|tangent| away.dot(&tangent) <= slack)
+            && after.or(end).is_none_or(|tangent| away.dot(&tangent) >= -slack)
+    }
+
+    fn foot(&self, place: Place, point: Vector2<f64>) -> Foot {
+        let (arc_length, on_curve, tangent, curvature) = match place {
+            Place::On(index, parameter) => {
+                let jet = self.primitives[self.pieces[index].primitive].evaluate(parameter);
+                let speed = jet.first.norm();
+                let curvature = jet.first.perp(&jet.second) / (speed * speed * speed);
+                (self.arc_length_at(index, parameter), jet.point, jet.first / speed, curvature)
+            }
+            Place::Before(beyond) => {
+                let (start, tangent) = self.at_end(false);
+                (-beyond, start - beyond * tangent, tangent, 0.0)
+            }
+            Place::After(beyond) => {
+                let (end, tangent) = self.at_end(true);
+                (self.length + beyond, end + beyond * tangent, tangent, 0.0)
+            }
+        };
+        Foot { arc_length, point: on_curve, tangent, curvature, distance: (on_curve - point).norm() }
+    }
+
+    /// One foot for each group that is one minimum (the nearest of it), none inside the ranges.
+    fn distinct(&self, feet: Vec<(Foot, f64)>, ranges: &[(f64, f64)]) -> Vec<Foot> {
+        let mut groups: Vec<(Foot, f64)> = Vec::new();
+        let mut edge = f64::NEG_INFINITY;
+        for (foot, width) in feet {
+            let in_range =
+                ranges.iter().any(|&(from, to)| from - SAME <= foot.arc_length && foot.arc_length <= to + SAME);
+            let joins = foot.arc_length - width <= edge + SAME;
+            edge = foot.arc_length + width;
+            match groups.last_mut() {
+                _ if in_range => {}
+                Some(group) if joins && group.0.distance <= foot.distance => {}
+                Some(group) if joins => group.0 = foot,
+                _ => groups.push((foot, width)),
+            }
+        }
+        if self.closed && groups.len() > 1 {
+            let (first, last) = (groups[0].0.arc_length, groups[groups.len() - 1].0.arc_length);
+            if first + self.length - last <= SAME + groups[0].1 + groups[groups.len() - 1].1 {
+                groups.pop();
+            }
+        }
+        groups.into_iter().map(|(foot, _)| foot).collect()
+    }
+}
+
+/// Sorts intervals and joins those that touch.
+fn join_ranges(ranges: &mut Vec<(f64, f64)>) {
+    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranges.dedup_by(|next, kept| {
+        let touches = next.0 <= kept.1 + SAME;
+        if touches {
+            kept.1 = kept.1.max(next.1);
+        }
+        touches
+    });
+}

@@ -1,0 +1,50 @@
+//! A curve seen from the frame in which its formation moves.
+use super::{Curve, Foot, NearestSet};
+use nalgebra::{Isometry2, Vector2};
+
+/// A curve and the pose of its frame, for instance the target's: all queries are in frame `map`.
+#[derive(Debug, Clone, Copy)]
+pub struct Placed<'a> {
+    curve: &'a Curve,
+    map_from_curve: Isometry2<f64>,
+}
+
+impl<'a> Placed<'a> {
+    /// Places `curve` by the transform that takes its frame to `map`.
+    pub fn new(curve: &'a Curve, map_from_curve: Isometry2<f64>) -> Self {
+        Self { curve, map_from_curve }
+    }
+
+    /// Point, tangent and curvature at `arc_length`, as [`Curve::at`].
+    pub fn at(&self, arc_length: f64) -> Foot {
+        self.to_map(self.curve.at(arc_length))
+    }
+
+    /// As [`Curve::nearest`].
+    pub fn nearest(&self, point: Vector2<f64>) -> Foot {
+        self.to_map(self.curve.nearest(self.to_curve(point)))
+    }
+
+    /// As [`Curve::nearest_all`].
+    pub fn nearest_all(&self, point: Vector2<f64>) -> NearestSet {
+        let mut set = self.curve.nearest_all(self.to_curve(point));
+        for foot in &mut set.feet {
+            *foot = self.to_map(*foot);
+        }
+        set
+    }
+
+    /// As [`Curve::track`].
+    pub fn track(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
+        self.to_map(self.curve.track(self.to_curve(point), arc_length))
+    }
+
+    fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
+        self.map_from_curve.inverse_transform_point(&point.into()).coords
+    }
+
+    fn to_map(self, foot: Foot) -> Foot {
+        let point = self.map_from_curve.transform_point(&foot.point.into()).coords;
+        Foot { point, tangent: self.map_from_curve.rotation * foot.tangent, ..foot }
+    }
+}

@@ -1,0 +1,87 @@
+//! The analytic pieces that curves are made of: value, derivatives, and bounds on the derivatives.
+use nalgebra::Vector2;
+
+/// Position and its first two derivatives by the primitive's own parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Jet {
+    pub(super) point: Vector2<f64>,
+    pub(super) first: Vector2<f64>,
+    pub(super) second: Vector2<f64>,
+}
+
+/// One analytic curve over a parameter interval.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Primitive {
+    /// start + u direction: the parameter is arc length.
+    Line { start: Vector2<f64>, direction: Vector2<f64> },
+    /// centre + A cos u + B sin u with A and B perpendicular: circles and ellipses.
+    Ellipse { centre: Vector2<f64>, cosine: Vector2<f64>, sine: Vector2<f64> },
+    /// c0 + c1 u + c2 u^2 + c3 u^3.
+    Cubic { coefficients: [Vector2<f64>; 4] },
+    /// origin + u along + across sin(k u + phase), `across` holding the amplitude.
+    Sinusoid { origin: Vector2<f64>, along: Vector2<f64>, across: Vector2<f64>, wave_number: f64, phase: f64 },
+}
+
+impl Primitive {
+    /// Cubic with the given Bezier control points, 0 <= u <= 1.
+    pub(super) fn bezier(control: [Vector2<f64>; 4]) -> Self {
+        let [p0, p1, p2, p3] = control;
+        Self::Cubic { coefficients: [p0, 3.0 * (p1 - p0), 3.0 * (p0 - 2.0 * p1 + p2), p3 - 3.0 * p2 + 3.0 * p1 - p0] }
+    }
+
+    /// Position and derivatives at parameter `u`.
+    pub(super) fn evaluate(&self, u: f64) -> Jet {
+        match *self {
+            Self::Line { start, direction } => {
+                Jet { point: start + u * direction, first: direction, second: Vector2::zeros() }
+            }
+            Self::Ellipse { centre, cosine, sine } => {
+                let (s, c) = libm::sincos(u);
+                let arm = c * cosine + s * sine;
+                Jet { point: centre + arm, first: c * sine - s * cosine, second: -arm }
+            }
+            Self::Cubic { coefficients: [c0, c1, c2, c3] } => Jet {
+                point: c0 + u * (c1 + u * (c2 + u * c3)),
+                first: c1 + u * (2.0 * c2 + 3.0 * u * c3),
+                second: 2.0 * c2 + 6.0 * u * c3,
+            },
+            Self::Sinusoid { origin, along, across, wave_number, phase } => {
+                let (s, c) = libm::sincos(wave_number * u + phase);
+                Jet {
+                    point: origin + u * along + s * across,
+                    first: along + wave_number * c * across,
+                    second: -wave_number * wave_number * s * across,
+                }
+            }
+        }
+    }
+
+    /// Upper bounds of the norms of the second and third derivative for |v - u| <= `half_width`.
+    pub(super) fn derivative_bounds(&self, u: f64, half_width: f64) -> (f64, f64) {
+        match self {
+            Self::Line { .. } => (0.0, 0.0),
+            Self::Ellipse { cosine, sine, .. } => {
+                let longest = cosine.norm().max(sine.norm());
+                (longest, longest)
+            }
+            Self::Cubic { coefficients: [_, _, c2, c3] } => {
+                let third = 6.0 * c3.norm();
+                ((2.0 * c2 + 6.0 * u * c3).norm() + half_width * third, third)
+            }
+            Self::Sinusoid { across, wave_number, .. } => {
+                let second = across.norm() * wave_number * wave_number;
+                (second, second * wave_number)
+            }
+        }
+    }
+
+    /// Radius and centre if this is part of a circle.
+    pub(super) fn circle(&self) -> Option<(Vector2<f64>, f64)> {
+        match self {
+            Self::Ellipse { centre, cosine, sine } if cosine.norm_squared() == sine.norm_squared() => {
+                Some((*centre, cosine.norm()))
+            }
+            _ => None,
+        }
+    }
+}
