@@ -5,7 +5,7 @@ use crate::kinematics::{Polar, Twist};
 /// v = K1 r cos phi, omega = -K3 sin phi cos phi - K2 phi, with K3 not necessarily K1.
 ///
 /// Closed loop (3.18): r' = -K1 r cos^2 phi, phi' = -K2 phi - K4 sin 2 phi. Which gains make it stable is
-/// [`StableZone`](crate::stability)'s matter.
+/// [`StableZone`](crate::stability::StableZone)'s matter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robust {
     /// K1, 1/s.
