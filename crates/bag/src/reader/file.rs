@@ -1,0 +1,61 @@
+//! One file of a bag: where its blocks of records are, and how to load one.
+
+use super::chunk;
+use super::record::{self, MAX_CHUNK_HEADER, PREFIX};
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::PathBuf;
+
+/// What a reader keeps in memory beyond the size of the file.
+const ALLOWANCE: u64 = 32 << 20;
+
+/// A run of records that is loaded as a whole: a chunk, or messages outside chunks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Block {
+    pub(super) offset: u64,
+    pub(super) length: u64,
+    pub(super) is_chunk: bool,
+    /// Smallest and largest log time of its messages, ns.
+    pub(super) first: u64,
+    pub(super) last: u64,
+}
+
+/// An open file and what a scan has found in it.
+pub(super) struct BagFile {
+    pub(super) path: PathBuf,
+    pub(super) file: File,
+    pub(super) length: u64,
+    /// The topic of each channel, an index into the topics of the bag.
+    pub(super) channels: BTreeMap<u16, usize>,
+    /// The blocks with intact messages.
+    pub(super) blocks: Vec<Block>,
+}
+
+impl BagFile {
+    /// The most that decompressed records may take.
+    pub(super) fn memory_limit(&self) -> u64 {
+        self.length + ALLOWANCE
+    }
+
+    /// The bytes from `offset`, at most `length` of them and no more than the file has.
+    pub(super) fn read(&self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
+        let length = length.min(self.length.saturating_sub(offset));
+        let mut bytes = vec![0; usize::try_from(length).map_err(io::Error::other)?];
+        self.file.read_exact_at(&mut bytes, offset)?;
+        Ok(bytes)
+    }
+
+    /// The records of a block; nothing where they are no longer what the scan has found.
+    pub(super) fn load(&self, block: &Block) -> io::Result<Option<Vec<u8>>> {
+        let bytes = self.read(block.offset, block.length)?;
+        if !block.is_chunk {
+            return Ok(Some(bytes));
+        }
+        let Some(body) = bytes.get(PREFIX..) else { return Ok(None) };
+        let head = body.get(..MAX_CHUNK_HEADER).unwrap_or(body);
+        let Some((header, skip)) = record::chunk_header(head, body.len() as u64) else { return Ok(None) };
+        Ok(chunk::decompress(&header, body.get(skip..).unwrap_or_default(), self.memory_limit()).ok())
+    }
+}

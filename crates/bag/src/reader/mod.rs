@@ -1,0 +1,159 @@
+//! Reading a bag.
+
+mod chunk;
+mod file;
+mod order;
+mod record;
+mod scan;
+mod summary_section;
+
+use crate::{BagError, TopicType, metadata};
+use file::BagFile;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub use order::{BagMessage, Messages};
+
+/// A topic of a bag.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Topic {
+    /// For example `/team_state`.
+    pub name: String,
+    /// For example `trench_msgs/msg/TeamState`.
+    pub type_name: String,
+    /// Its RIHS01 hash; empty where the bag does not say it.
+    pub type_hash: String,
+    /// The definition as the bag carries it.
+    pub definition: String,
+    /// The quality of service its writers offered, YAML as the bag carries it.
+    pub offered_qos: String,
+    /// How many intact messages the bag holds.
+    pub message_count: u64,
+}
+
+impl Topic {
+    /// The type, as a [`crate::BagWriter`] wants it.
+    #[must_use]
+    pub fn topic_type(&self) -> TopicType<'_> {
+        TopicType { name: &self.type_name, hash: &self.type_hash, definition: &self.definition }
+    }
+}
+
+/// Something in a bag that is not as it was written.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{path}: {what}")]
+pub struct Damage {
+    /// The file.
+    pub path: PathBuf,
+    /// What is wrong, where, and what it cost.
+    pub what: String,
+}
+
+/// A bag, opened and checked from its first to its last byte.
+pub struct BagReader {
+    path: PathBuf,
+    files: Vec<BagFile>,
+    topics: Vec<Topic>,
+    damage: Vec<Damage>,
+    span: Option<(u64, u64)>,
+}
+
+impl BagReader {
+    /// Opens a bag's folder, or a single `.mcap` file, and checks every chunk of it. A folder without `metadata.yaml`
+    /// (its recorder was killed) is read by its `.mcap` files in the order of their names.
+    ///
+    /// # Errors
+    /// When there is no bag at `path`. Damage inside the files is no error: see [`BagReader::damage`].
+    pub fn open(path: &Path) -> Result<Self, BagError> {
+        let mut reader =
+            Self { path: path.to_owned(), files: Vec::new(), topics: Vec::new(), damage: Vec::new(), span: None };
+        for file in files_of(path)? {
+            let scanned = scan::scan(&file, &mut reader.topics)?;
+            reader.damage.extend(scanned.damage.into_iter().map(|what| Damage { path: file.clone(), what }));
+            for block in &scanned.file.blocks {
+                let (first, last) = reader.span.unwrap_or((block.first, block.last));
+                reader.span = Some((first.min(block.first), last.max(block.last)));
+            }
+            reader.files.push(scanned.file);
+        }
+        Ok(reader)
+    }
+
+    /// Where the bag is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Its topics, in the order in which the files name them.
+    #[must_use]
+    pub fn topics(&self) -> &[Topic] {
+        &self.topics
+    }
+
+    /// The index of a topic.
+    #[must_use]
+    pub fn topic(&self, name: &str) -> Option<usize> {
+        self.topics.iter().position(|topic| topic.name == name)
+    }
+
+    /// What is not intact. Empty for a bag that is as it was written.
+    #[must_use]
+    pub fn damage(&self) -> &[Damage] {
+        &self.damage
+    }
+
+    /// First and last log time, ns; nothing for a bag without messages.
+    #[must_use]
+    pub fn span(&self) -> Option<(u64, u64)> {
+        self.span
+    }
+
+    /// How many intact messages it holds.
+    #[must_use]
+    pub fn message_count(&self) -> u64 {
+        self.topics.iter().map(|topic| topic.message_count).sum()
+    }
+
+    /// The names of its files and their sizes in bytes.
+    pub fn files(&self) -> impl Iterator<Item = (&Path, u64)> {
+        self.files.iter().map(|file| (file.path.as_path(), file.length))
+    }
+
+    /// All intact messages, file by file, in the order of their log times; of equal times in the order of writing.
+    #[must_use]
+    pub fn messages(&self) -> Messages<'_> {
+        Messages::new(&self.files)
+    }
+}
+
+fn files_of(path: &Path) -> Result<Vec<PathBuf>, BagError> {
+    let kind = fs::metadata(path).map_err(BagError::io(path))?;
+    if kind.is_file() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let description = path.join(metadata::FILE_NAME);
+    let mut files = match fs::read_to_string(&description) {
+        // Only the last part of a name counts: bags move, and none may point outside its folder.
+        Ok(text) => metadata::file_names(&description, &text)?
+            .iter()
+            .filter_map(|name| Path::new(name).file_name().map(|name| path.join(name)))
+            .collect(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => mcap_files(path)?,
+        Err(error) => return Err(BagError::io(&description)(error)),
+    };
+    files.dedup();
+    if files.is_empty() { Err(BagError::NoFiles(path.to_owned())) } else { Ok(files) }
+}
+
+fn mcap_files(folder: &Path) -> Result<Vec<PathBuf>, BagError> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).map_err(BagError::io(folder))? {
+        let path = entry.map_err(BagError::io(folder))?.path();
+        if path.extension().is_some_and(|extension| extension == "mcap") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,213 @@
+//! The first pass over a file: finds its blocks, checks each, learns channels, counts messages, notes what is damaged.
+//!
+//! Where the framing breaks, the scan looks for the next chunk by its header and goes on there, so that damage in one
+//! place costs one chunk.
+
+mod channels;
+mod resync;
+
+use super::file::{BagFile, Block};
+use super::record::{self, MAX_CHUNK_HEADER, PREFIX};
+use super::{Topic, chunk, summary_section};
+use crate::BagError;
+use channels::Channels;
+use mcap::records::{ChunkHeader, Record, op};
+use std::fs::File;
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::Path;
+
+/// Messages outside chunks are gathered into blocks of about this many bytes.
+const LOOSE_BLOCK: u64 = 1 << 20;
+
+/// A scanned file.
+pub(super) struct Scanned {
+    pub(super) file: BagFile,
+    pub(super) damage: Vec<String>,
+}
+
+/// Scans the file at `path`, adding its topics and message counts to `topics`.
+pub(super) fn scan(path: &Path, topics: &mut Vec<Topic>) -> Result<Scanned, BagError> {
+    let handle = File::open(path).map_err(BagError::io(path))?;
+    let length = handle.metadata().map_err(BagError::io(path))?.len();
+    let file =
+        BagFile { path: path.to_owned(), file: handle, length, channels: Default::default(), blocks: Vec::new() };
+    let summary = summary_section::read(&file).unwrap_or_default();
+    let expected = summary.message_count;
+    let mut channels = Channels::new(topics);
+    channels.seed(summary);
+    let mut scan = Scan { file, channels, damage: Vec::new(), loose: Vec::new(), finished: false };
+    let magic_is_good = scan.run().map_err(BagError::io(path))?;
+    if !magic_is_good && scan.file.blocks.is_empty() {
+        return Err(BagError::NotMcap(path.to_owned()));
+    }
+    scan.report_losses(expected);
+    let Scan { mut file, channels, damage, .. } = scan;
+    file.channels = channels.finish();
+    file.blocks.sort_by_key(|block| block.offset);
+    Ok(Scanned { file, damage })
+}
+
+struct Scan<'a> {
+    file: BagFile,
+    channels: Channels<'a>,
+    damage: Vec<String>,
+    /// Blocks of messages outside chunks, with their channels' counts.
+    loose: Vec<(Block, Vec<u16>)>,
+    finished: bool,
+}
+
+impl Scan<'_> {
+    /// Whether the file begins as an MCAP file.
+    fn run(&mut self) -> io::Result<bool> {
+        let magic = self.file.read(0, mcap::MAGIC.len() as u64)?;
+        let magic_is_good = magic == mcap::MAGIC;
+        let mut at = Some(mcap::MAGIC.len() as u64);
+        if !magic_is_good {
+            self.damage.push("does not begin with the magic of an MCAP file".to_owned());
+            at = self.resync(0)?;
+        }
+        while let Some(offset) = at.filter(|&offset| offset < self.file.length && !self.finished) {
+            at = match self.record(offset)? {
+                Some(next) => Some(next),
+                None => self.resync(offset + 1)?,
+            };
+        }
+        Ok(magic_is_good)
+    }
+
+    /// Handles the record at `offset` and gives where the next one begins; nothing where this is no intact record.
+    fn record(&mut self, offset: u64) -> io::Result<Option<u64>> {
+        let head = self.file.read(offset, (PREFIX + MAX_CHUNK_HEADER) as u64)?;
+        let Some((opcode, length)) = record::prefix(&head) else { return Ok(None) };
+        let body_offset = offset + PREFIX as u64;
+        let Some(end) = body_offset.checked_add(length).filter(|&end| end <= self.file.length) else {
+            return Ok(None);
+        };
+        let body_head = head.get(PREFIX..).unwrap_or_default();
+        if let Some((header, skip)) = record::chunk_header(body_head, length) {
+            let block = Block { offset, length: end - offset, is_chunk: true, first: 0, last: 0 };
+            self.chunk(block, &header, body_offset + skip as u64)?;
+            return Ok(Some(end));
+        }
+        if record::is_skipped(opcode) {
+            return Ok(Some(end));
+        }
+        let body = self.file.read(body_offset, length)?;
+        if !record::is_plausible(opcode, &body) {
+            return Ok(None);
+        }
+        match opcode {
+            op::MESSAGE => self.loose_message(Block { offset, length: end - offset, is_chunk: false, first: 0, last: 0 }, &body),
+            op::DATA_END => self.data_end(offset, &body)?,
+            _ => self.definition(opcode, &body),
+        }
+        Ok(Some(end))
+    }
+
+    fn chunk(&mut self, mut block: Block, header: &ChunkHeader, data_offset: u64) -> io::Result<()> {
+        let compressed = self.file.read(data_offset, header.compressed_size)?;
+        let records = match chunk::decompress(header, &compressed, self.file.memory_limit()) {
+            Ok(records) => records,
+            Err(bad) => {
+                self.damage.push(format!("the chunk at byte {} {}: its messages are lost", block.offset, bad.describe()));
+                return Ok(());
+            }
+        };
+        let mut span = None;
+        let mut at = 0;
+        while let Some((opcode, start, end)) = record::record_at(&records, at) {
+            at = end;
+            if opcode != op::MESSAGE {
+                self.definition(opcode, records.get(start..end).unwrap_or_default());
+            } else if let Some(message) = record::message(&records, start, end)
+                && self.channels.count(message.channel)
+            {
+                let (first, last) = span.unwrap_or((message.log_time, message.log_time));
+                span = Some((first.min(message.log_time), last.max(message.log_time)));
+            }
+        }
+        if at != records.len() {
+            self.damage.push(format!("the chunk at byte {} ends in the middle of a record", block.offset));
+        }
+        if let Some((first, last)) = span {
+            (block.first, block.last) = (first, last);
+            self.file.blocks.push(block);
+        }
+        Ok(())
+    }
+
+    fn loose_message(&mut self, mut record: Block, body: &[u8]) {
+        let Some(message) = record::message(body, 0, body.len()) else { return };
+        (record.first, record.last) = (message.log_time, message.log_time);
+        match self.loose.last_mut() {
+            Some((block, channels))
+                if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK =>
+            {
+                block.length += record.length;
+                block.first = block.first.min(record.first);
+                block.last = block.last.max(record.last);
+                channels.push(message.channel);
+            }
+            _ => self.loose.push((record, vec![message.channel])),
+        }
+    }
+
+    fn definition(&mut self, opcode: u8, body: &[u8]) {
+        match mcap::parse_record(opcode, body) {
+            Ok(Record::Schema { header, data }) => self.channels.add_schema(header.id, header.name, &data),
+            Ok(Record::Channel(channel)) => self.channels.add_channel(channel),
+            _ => {}
+        }
+    }
+
+    /// The end of the data: its checksum is all that vouches for messages outside chunks.
+    fn data_end(&mut self, offset: u64, body: &[u8]) -> io::Result<()> {
+        self.finished = true;
+        let expected = body.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes));
+        if expected != 0 && self.checksum(offset)? != expected {
+            self.damage.push("the data contradict their checksum".to_owned());
+            let lost: usize = self.loose.drain(..).map(|(_, channels)| channels.len()).sum();
+            if lost > 0 {
+                self.damage.push(format!("{lost} messages outside chunks are lost: which of them changed is unknown"));
+            }
+        }
+        Ok(())
+    }
+
+    /// CRC-32 of the first `length` bytes.
+    fn checksum(&self, length: u64) -> io::Result<u32> {
+        let mut hasher = crc32fast::Hasher::new();
+        let mut buffer = vec![0; 1 << 16];
+        let mut at = 0;
+        while at < length {
+            let part = (length - at).min(buffer.len() as u64) as usize;
+            let bytes = buffer.get_mut(..part).unwrap_or_default();
+            self.file.file.read_exact_at(bytes, at)?;
+            hasher.update(bytes);
+            at += part as u64;
+        }
+        Ok(hasher.finalize())
+    }
+
+    fn report_losses(&mut self, expected: Option<u64>) {
+        for (block, channels) in std::mem::take(&mut self.loose) {
+            let known = channels.into_iter().filter(|&channel| self.channels.count(channel)).count();
+            if known > 0 {
+                self.file.blocks.push(block);
+            }
+        }
+        let (counted, unknown) = self.channels.totals();
+        if !self.finished {
+            self.damage.push(format!(
+                "ends without a summary: its recorder was killed or its end is lost; {counted} messages are intact"
+            ));
+        }
+        if unknown > 0 {
+            self.damage.push(format!("{unknown} messages are lost with the definition of their topic"));
+        }
+        if let Some(expected) = expected.filter(|&expected| expected != counted) {
+            self.damage.push(format!("{counted} of {expected} messages are intact"));
+        }
+    }
+}

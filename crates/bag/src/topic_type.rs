@@ -1,0 +1,20 @@
+//! Message types as bags name them.
+
+use trench_msgs::TypeInfo;
+
+/// A message type, known at build time or read from somewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TopicType<'a> {
+    /// For example `nav_msgs/msg/Odometry`.
+    pub name: &'a str,
+    /// Its RIHS01 hash; empty where it is not known.
+    pub hash: &'a str,
+    /// The root .msg text and those of all dependencies (`ros2msg`).
+    pub definition: &'a str,
+}
+
+impl From<&'static TypeInfo> for TopicType<'static> {
+    fn from(info: &'static TypeInfo) -> Self {
+        Self { name: info.name, hash: info.hash, definition: info.definition }
+    }
+}

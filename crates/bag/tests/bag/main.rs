@@ -1,0 +1,6 @@
+//! Bags from the outside: written, read, damaged, and read by programs of others.
+#![expect(clippy::unwrap_used, clippy::expect_used, reason = "helpers of tests fail as tests do")]
+
+mod common;
+mod damage;
+mod round_trip;
