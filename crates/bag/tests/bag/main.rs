@@ -1,6 +1,7 @@
 //! Bags from the outside: written, read, damaged, and read by programs of others.
-#![expect(clippy::unwrap_used, clippy::expect_used, reason = "helpers of tests fail as tests do")]
+#![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "helpers of tests fail as tests do")]
 
 mod common;
 mod damage;
+mod peers;
 mod round_trip;
