@@ -1,1 +1,3 @@
 //! Finds every robot's colour pad in the overhead camera's frames and publishes the team's state.
+
+pub mod vision;

@@ -1,0 +1,83 @@
+//! From one pixel inside a disc to the disc's extent.
+
+use super::chroma::{Colour, chroma};
+use super::frame::Frame;
+
+/// The box around a blob, ends included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Extent {
+    pub(super) columns: [usize; 2],
+    pub(super) rows: [usize; 2],
+}
+
+/// Reads chroma of one sign around a place.
+#[derive(Clone, Copy)]
+pub(super) struct Tracer<'a, const RED: usize> {
+    pub(super) frame: Frame<'a>,
+    pub(super) colour: Colour,
+    /// Longest run that can be a disc's, pixels.
+    pub(super) longest: usize,
+}
+
+impl<const RED: usize> Tracer<'_, RED> {
+    /// The extent of the disc around the seed at column `u` and row `v`, along the row and the column through its middle;
+    /// None where it is larger than a disc.
+    ///
+    /// Runs through the seed find a point near the middle; there the disc's own chroma is measured, and runs at half of
+    /// it end where the disc covers half a pixel.
+    pub(super) fn extent(&self, u: usize, v: usize) -> Option<Extent> {
+        let rough = self.chroma(u, v) / 2;
+        let u = middle(self.run_in_row(u, v, rough)?);
+        let v = middle(self.run_in_column(u, v, rough)?);
+        let half = self.level(u, v) / 2;
+        let u = middle(self.run_in_row(u, v, half)?);
+        let rows = self.run_in_column(u, v, half)?;
+        let columns = self.run_in_row(u, middle(rows), half)?;
+        Some(Extent { columns, rows })
+    }
+
+    /// The mean chroma of the 3 x 3 pixels around a place.
+    pub(super) fn level(&self, u: usize, v: usize) -> i32 {
+        let around = |centre: usize| centre.saturating_sub(1)..centre + 2;
+        around(v).flat_map(|row| around(u).map(move |column| self.chroma(column, row))).sum::<i32>() / 9
+    }
+
+    /// Chroma in the direction of the colour; as good as none outside the image.
+    #[inline]
+    pub(super) fn chroma(&self, u: usize, v: usize) -> i32 {
+        match self.frame.row(v).get(3 * u..3 * u + 3) {
+            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c]),
+            _ => i32::MIN / 16,
+        }
+    }
+
+    fn run_in_row(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
+        self.run(u, |u| self.chroma(u, v) >= least)
+    }
+
+    fn run_in_column(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
+        self.run(v, |v| self.chroma(u, v) >= least)
+    }
+
+    /// The longest interval around `start` on which `inside` holds; None if longer than a disc.
+    fn run(&self, start: usize, inside: impl Fn(usize) -> bool) -> Option<[usize; 2]> {
+        let (mut first, mut last) = (start, start);
+        while first > 0 && inside(first - 1) {
+            first -= 1;
+            if start - first > self.longest {
+                return None;
+            }
+        }
+        while inside(last + 1) {
+            last += 1;
+            if last - first > self.longest {
+                return None;
+            }
+        }
+        Some([first, last])
+    }
+}
+
+fn middle([first, last]: [usize; 2]) -> usize {
+    (first + last) / 2
+}

@@ -1,0 +1,131 @@
+//! All discs of a frame.
+
+use super::blob::Tracer;
+use super::centroid;
+use super::chroma::{Classifier, Colour, ColourLimits};
+use super::frame::{ChannelOrder, Frame};
+use nalgebra::Point3;
+use trench_optics::{Camera, Pad, Pixel};
+
+/// A disc in the image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Disc {
+    /// Yellow or blue.
+    pub colour: Colour,
+    /// Its centre of area.
+    pub centre: Pixel,
+    /// pixel^2
+    pub area: f64,
+    /// 0..1: how well its area fits.
+    pub confidence: f64,
+}
+
+/// How large a disc appears.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expectation {
+    /// Along a row, pixels.
+    pub width: f64,
+    /// Along a column, pixels.
+    pub height: f64,
+}
+
+impl Expectation {
+    /// The discs of `pad` below the middle of the camera's view; None where the camera sees no pad there.
+    #[must_use]
+    pub fn new(camera: &Camera, pad: &Pad) -> Option<Self> {
+        let mount = camera.mount();
+        let scale = camera.pixels_per_metre(Point3::new(mount.x, mount.y, pad.height))?;
+        // The reach of a circle's image along an axis is the length of that row of the derivative.
+        Some(Self { width: pad.disc_diameter * scale.row(0).norm(), height: pad.disc_diameter * scale.row(1).norm() })
+    }
+
+    fn area(&self) -> f64 {
+        std::f64::consts::FRAC_PI_4 * self.width * self.height
+    }
+}
+
+/// Sizes between these fractions of the expected one can be a disc's: lens, tilt, blur and light change them.
+const SMALLEST: f64 = 0.7;
+const LARGEST: f64 = 1.35;
+/// More discs than any team has: a frame full of colour must not take for ever.
+const MOST_DISCS: usize = 256;
+
+/// Finds discs; keeps nothing from frame to frame.
+#[derive(Debug, Clone)]
+pub struct Detector {
+    classifier: Classifier,
+    expectation: Expectation,
+    stride: usize,
+}
+
+impl Detector {
+    /// For discs of the expected size and the colours within the limits.
+    #[must_use]
+    pub fn new(limits: &ColourLimits, expectation: Expectation) -> Self {
+        // Two looks across the smallest disc.
+        let stride = (0.4 * expectation.width.min(expectation.height)) as usize;
+        Self { classifier: Classifier::new(limits), expectation, stride: stride.max(1) }
+    }
+
+    /// Puts the discs of `frame` into `discs`, in the order of their topmost look. Discs cut by the image's edge are left
+    /// out: their centre is not where it seems.
+    pub fn detect(&self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
+        discs.clear();
+        match frame.order {
+            ChannelOrder::Rgb => self.scan::<0>(frame, discs),
+            ChannelOrder::Bgr => self.scan::<2>(frame, discs),
+        }
+    }
+
+    fn scan<const RED: usize>(&self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
+        for v in (self.stride / 2..frame.height).step_by(self.stride) {
+            for (index, look) in frame.row(v).chunks_exact(3 * self.stride).enumerate() {
+                let Some(colour) = self.classifier.classify::<RED>([look[0], look[1], look[2]]) else { continue };
+                let u = index * self.stride;
+                if !self.is_known(discs, colour, u, v)
+                    && let Some(disc) = self.disc_around::<RED>(frame, colour, u, v)
+                {
+                    discs.push(disc);
+                    if discs.len() == MOST_DISCS {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a pixel belongs to a disc already found.
+    fn is_known(&self, discs: &[Disc], colour: Colour, u: usize, v: usize) -> bool {
+        let reach = 0.6 * self.expectation.width.max(self.expectation.height);
+        discs.iter().any(|disc| {
+            disc.colour == colour
+                && (disc.centre.u - u as f64).abs() < reach
+                && (disc.centre.v - v as f64).abs() < reach
+        })
+    }
+
+    fn disc_around<const RED: usize>(&self, frame: Frame<'_>, colour: Colour, u: usize, v: usize) -> Option<Disc> {
+        let expected = self.expectation;
+        let longest = (LARGEST * expected.width.max(expected.height)) as usize;
+        let tracer = Tracer::<RED> { frame, colour, longest };
+        let extent = tracer.extent(u, v)?;
+        let fits = |[first, last]: [usize; 2], size: f64, expected: f64| {
+            let ratio = (last - first + 1) as f64 / expected;
+            // A run that reaches the image's edge may go on outside.
+            (SMALLEST..LARGEST).contains(&ratio) && first > 0 && (last as f64) < size - 1.0
+        };
+        if !fits(extent.columns, frame.width as f64, expected.width)
+            || !fits(extent.rows, frame.height as f64, expected.height)
+        {
+            return None;
+        }
+        let measured = centroid::measure(&tracer, extent)?;
+        let ratio = measured.area / expected.area();
+        (SMALLEST..LARGEST).contains(&ratio).then(|| Disc {
+            colour,
+            centre: measured.centre,
+            area: measured.area,
+            confidence: ratio.min(1.0 / ratio),
+        })
+    }
+}

@@ -1,0 +1,14 @@
+//! From pixels to discs.
+//!
+//! One look at every eighth pixel of every eighth row cannot miss a disc 20 pixels wide; only around the hits are pixels
+//! read one by one. So a frame costs a few ten thousand pixel reads instead of 442,368.
+
+mod blob;
+mod centroid;
+mod chroma;
+mod detector;
+mod frame;
+
+pub use chroma::{Colour, ColourLimits};
+pub use detector::{Detector, Disc, Expectation};
+pub use frame::{ChannelOrder, Frame, FrameError};
