@@ -1,1 +1,24 @@
 //! Drives one robot to its place in the formation.
+//!
+//! A tick is the arrival of a team state: predict the robot's pose from the exposure to the moment the command will act,
+//! extrapolate the goal to the same moment, apply the law, keep what the motors can follow, pass the safety filter, send.
+//!
+//! | stage | where | source |
+//! |---|---|---|
+//! | prediction | [`Predictor`] | commands sent since the exposure |
+//! | law | [`Law`] | (3.9), (3.10), (3.13), (4.4), (3.13) with feed-forward |
+//! | motors | `trench_formation::kinematics::{saturate, Ramp}` | 4.5.2, 4.6.3 |
+//! | safety | `trench_formation::safety` | invariant 8 of docs/ARCHITECTURE.md |
+
+mod core;
+mod deviation;
+mod inputs;
+mod law;
+mod predictor;
+mod settings;
+mod tick;
+
+pub use crate::core::{FormationController, description};
+pub use deviation::Deviation;
+pub use law::Law;
+pub use predictor::Predictor;

@@ -1,1 +1,20 @@
 //! Assigns robots to queues, orders teams into chains, publishes goals and the run state.
+//!
+//! | what | where | source |
+//! |---|---|---|
+//! | formation file to queues | `trench_plan` | Definition 2.1.1 |
+//! | robots to places, chains | [`organise`] | 2.1, 6.2.1 |
+//! | goal points | [`virtual_point`] | 4.6 |
+//! | run state | [`RunMachine`] | services arm, start, stop, reset |
+
+mod checkpoint;
+mod core;
+mod organise;
+mod run_machine;
+mod settings;
+mod virtual_point;
+
+pub use crate::core::{LeaderAssignment, description};
+pub use organise::{Seated, organise};
+pub use run_machine::{Request, RunMachine, state_name};
+pub use virtual_point::{Carrier, VirtualPoint, virtual_point};

@@ -1,0 +1,173 @@
+//! Formation files.
+
+use crate::plan::{Frame, Motion, Place, Plan, QueuePlan};
+use trench_config::ConfigError;
+use trench_config::yaml::{self, Map, Node};
+use trench_formation::Vector2;
+use trench_formation::curve::{Curve, CurveShape};
+
+/// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
+const ON_SEGMENT: f64 = 1e-3;
+
+/// Shares may miss 1 by this much: rounding of thirds in the file.
+const SHARES: f64 = 0.005;
+
+/// Reads a formation file; `file` names it in errors.
+///
+/// # Errors
+/// The first thing that is wrong, with file, line, key, value and remedy.
+pub fn parse(file: &str, text: &str) -> Result<Plan, ConfigError> {
+    let root = yaml::parse(file, text)?;
+    let map = root.map()?;
+    let plan = Plan {
+        name: map.str("name")?.to_owned(),
+        frame: frame(&map)?,
+        motion: motion(&map)?,
+        queues: queues(map.node("queues")?)?,
+    };
+    map.finish()?;
+    Ok(plan)
+}
+
+fn frame(map: &Map<'_>) -> Result<Frame, ConfigError> {
+    match map.opt_node("frame") {
+        None => Ok(Frame::Map),
+        Some(node) => match node.str()? {
+            "map" => Ok(Frame::Map),
+            "target" => Ok(Frame::Target),
+            _ => Err(node.error("is no frame", "write map (fixed on the field) or target (moves with the target)")),
+        },
+    }
+}
+
+fn motion(map: &Map<'_>) -> Result<Motion, ConfigError> {
+    let Some(node) = map.opt_node("motion") else { return Ok(Motion { approach: 0.0, speed: 0.0 }) };
+    let map = node.map()?;
+    let motion = Motion { approach: not_negative(&map, "approach")?, speed: not_negative(&map, "speed")? };
+    map.finish()?;
+    Ok(motion)
+}
+
+fn queues(node: &Node) -> Result<Vec<QueuePlan>, ConfigError> {
+    let queues: Vec<QueuePlan> = node.list()?.iter().map(queue).collect::<Result<_, _>>()?;
+    if queues.is_empty() {
+        return Err(node.error("a formation without segments", "give at least one queue"));
+    }
+    let total: f64 = queues.iter().map(|queue| queue.share).sum();
+    if (total - 1.0).abs() > SHARES {
+        return Err(node.error(format!("the shares add up to {total}"), "make them add up to 1"));
+    }
+    Ok(queues)
+}
+
+fn queue(node: &Node) -> Result<QueuePlan, ConfigError> {
+    let map = node.map()?;
+    let (shape, curve) = segment(map.node("segment")?)?;
+    let vertices = map.node("vertices")?;
+    let ends = on_curve(&curve, vertices)?;
+    if ends.is_empty() {
+        return Err(vertices.error("a queue without a vertex", "give one or two points of the segment"));
+    }
+    let starts = map.opt_node("starts").map(|node| Ok((node, on_curve(&curve, node)?))).transpose()?;
+    let places = match starts {
+        None => ends.iter().map(|&end| Place { start: end, end }).collect(),
+        Some((node, starts)) if starts.len() != ends.len() => {
+            let problem = format!("{} starts for {} vertices", starts.len(), ends.len());
+            return Err(node.error(problem, "give one start for each vertex, in the same order"));
+        }
+        Some((_, starts)) => starts.iter().zip(&ends).map(|(&start, &end)| Place { start, end }).collect(),
+    };
+    let plan = QueuePlan {
+        name: map.str("name")?.to_owned(),
+        shape,
+        curve,
+        vertices: points(vertices)?,
+        share: share(&map)?,
+        tolerance: not_negative(&map, "tolerance")?,
+        places,
+    };
+    map.finish()?;
+    Ok(plan)
+}
+
+fn share(map: &Map<'_>) -> Result<f64, ConfigError> {
+    let share = map.f64("share")?;
+    if (0.0..=1.0).contains(&share) {
+        return Ok(share);
+    }
+    Err(map.node("share")?.error("is no fraction", "write a number from 0 to 1"))
+}
+
+/// The segment's description and curve: a map with the kind, its numbers, and open ends.
+fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
+    let map = node.map()?;
+    let shape = match map.str("kind")? {
+        "line" => match points(map.node("points")?)?.as_slice() {
+            &[from, to] => CurveShape::Line(from, to),
+            other => {
+                let problem = format!("a line with {} points", other.len());
+                return Err(map.node("points")?.error(problem, "give two, or kind: polyline"));
+            }
+        },
+        "polyline" => CurveShape::Polyline(points(map.node("points")?)?),
+        "spline" => CurveShape::Spline(points(map.node("points")?)?),
+        "bezier" => CurveShape::Bezier(points(map.node("points")?)?),
+        "arc" => CurveShape::Arc {
+            centre: point(map.node("centre")?)?,
+            radius: map.f64("radius")?,
+            start_angle: map.f64("start_angle")?,
+            sweep: map.f64("sweep")?,
+        },
+        "ellipse" => CurveShape::Ellipse {
+            centre: point(map.node("centre")?)?,
+            semi_axes: map.get("semi_axes")?,
+            rotation: map.opt_f64("rotation")?.unwrap_or(0.0),
+        },
+        "sinusoid" => CurveShape::Sinusoid {
+            origin: point(map.node("origin")?)?,
+            direction: map.opt_f64("direction")?.unwrap_or(0.0),
+            length: map.f64("length")?,
+            amplitude: map.f64("amplitude")?,
+            wavelength: map.f64("wavelength")?,
+            phase: map.opt_f64("phase")?.unwrap_or(0.0),
+        },
+        _ => {
+            let remedy = "write line, polyline, spline, bezier, arc, ellipse or sinusoid";
+            return Err(map.node("kind")?.error("is no kind of segment", remedy));
+        }
+    };
+    let open = |key| Ok::<_, ConfigError>(map.opt::<bool>(key)?.unwrap_or(false));
+    let (open_start, open_end) = (open("open_start")?, open("open_end")?);
+    map.finish()?;
+    let curve = Curve::new(&shape, open_start, open_end)
+        .map_err(|error| node.error(error.to_string(), "mend the segment"))?;
+    Ok((shape, curve))
+}
+
+/// Arc lengths of the points of a list, all of which must lie on the curve.
+fn on_curve(curve: &Curve, node: &Node) -> Result<Vec<f64>, ConfigError> {
+    let arc_length = |node: &Node| {
+        let foot = curve.nearest(point(node)?);
+        if foot.distance > ON_SEGMENT {
+            let problem = format!("is {:.4} m away from the segment", foot.distance);
+            let remedy = format!("the nearest point of the segment is [{:.4}, {:.4}]", foot.point.x, foot.point.y);
+            return Err(node.error(problem, remedy));
+        }
+        Ok(foot.arc_length)
+    };
+    node.list()?.iter().map(arc_length).collect()
+}
+
+fn points(node: &Node) -> Result<Vec<Vector2<f64>>, ConfigError> {
+    node.list()?.iter().map(point).collect()
+}
+
+fn point(node: &Node) -> Result<Vector2<f64>, ConfigError> {
+    let [x, y]: [f64; 2] = node.get()?;
+    Ok(Vector2::new(x, y))
+}
+
+fn not_negative(map: &Map<'_>, key: &str) -> Result<f64, ConfigError> {
+    let value = map.f64(key)?;
+    if value >= 0.0 { Ok(value) } else { Err(map.node(key)?.error("is negative", "write 0 or more")) }
+}

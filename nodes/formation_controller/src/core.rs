@@ -1,0 +1,243 @@
+//! The node core: events in, ticks, messages out.
+
+use crate::inputs::{Heard, point, vector};
+use crate::settings::{Settings, check_gains, descriptors};
+use crate::tick::{Command, Tick};
+use trench_config::{ConfigError, Parameters};
+use trench_core::{
+    Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
+    Sink, StartError, Steady, Subscribe, Times, resolve_name,
+};
+use trench_formation::Vector2;
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::geometry_msgs::{Twist, TwistStamped};
+use trench_msgs::msg::{
+    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, RunState, TeamState,
+};
+use trench_msgs::std_msgs::{Bool, Header};
+use trench_msgs::{CdrError, Message};
+
+const TEAM_STATE: usize = 0;
+const GOALS: usize = 1;
+const ASSIGNMENT: usize = 2;
+const FORMATION: usize = 3;
+const RUN_STATE: usize = 4;
+const APPARENT_OBSTACLES: usize = 5;
+const EMERGENCY_STOP: usize = 6;
+/// Leader states of the others follow from here on.
+const OTHERS: usize = 7;
+
+const CMD_VEL: usize = 0;
+const LEADER_STATE: usize = 1;
+const DIAGNOSTICS: usize = 2;
+
+/// Room for one small message in shared memory.
+const SMALL: Local = Local::SharedMemory { max_len: 1024 };
+
+/// One robot's controller.
+pub struct FormationController {
+    interface: Interface,
+    tick: Tick,
+    others: Vec<String>,
+    health: Health,
+    wakeup: Option<Steady>,
+    bad_messages: u64,
+    /// Gains outside the stable zone that the operator allowed, to be told once the log is open.
+    warning: Option<String>,
+}
+
+/// The node as processes and the simulator make it.
+#[must_use]
+pub fn description() -> NodeDescription {
+    NodeDescription {
+        name: "formation_controller",
+        about: "Drives one robot to its place in the formation",
+        parameters: descriptors,
+        build,
+    }
+}
+
+fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let settings = Settings::read(parameters, &context.namespace)?;
+    let warning = admit_gains(parameters)?;
+    let others: Vec<String> = settings.team.iter().filter(|name| **name != settings.robot).cloned().collect();
+    Ok(Box::new(FormationController {
+        interface: interface(&settings, &others),
+        health: Health::new(resolve_name("~", &context.namespace, &context.name)),
+        tick: Tick::new(settings),
+        others,
+        wakeup: None,
+        bad_messages: 0,
+        warning,
+    }))
+}
+
+/// Refuses gains outside the stable zone, or gives the warning where the operator allows them.
+fn admit_gains(parameters: &Parameters) -> Result<Option<String>, ConfigError> {
+    match check_gains(parameters) {
+        Err(refusal) if parameters.bool("refuse_unstable_gains")? => Err(refusal),
+        Err(refusal) => Ok(Some(refusal.to_string())),
+        Ok(()) => Ok(None),
+    }
+}
+
+fn interface(settings: &Settings, others: &[String]) -> Interface {
+    let subscribe = |topic: &str, type_info, qos| Subscribe { topic: topic.to_owned(), type_info, qos };
+    let mut subscriptions = vec![
+        subscribe("/team_state", TeamState::TYPE, Qos::RELIABLE),
+        subscribe("/goals", Goals::TYPE, Qos::RELIABLE),
+        subscribe("/assignment", Assignment::TYPE, Qos::LATCHED),
+        subscribe("/formation", Formation::TYPE, Qos::LATCHED),
+        subscribe("/run_state", RunState::TYPE, Qos::LATCHED),
+        subscribe("/apparent_obstacles", ApparentObstacleArray::TYPE, Qos::RELIABLE),
+        subscribe("/emergency_stop", Bool::TYPE, Qos::RELIABLE),
+    ];
+    subscriptions
+        .extend(others.iter().map(|name| subscribe(&format!("/{name}/leader_state"), LeaderState::TYPE, Qos::RELIABLE)));
+    let advertise = |topic: String, type_info, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
+    let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
+    Interface {
+        subscriptions,
+        publications: vec![
+            advertise(format!("/{}/cmd_vel", settings.robot), command, SMALL),
+            advertise(format!("/{}/leader_state", settings.robot), LeaderState::TYPE, SMALL),
+            advertise("/diagnostics".to_owned(), DiagnosticArray::TYPE, Local::NetworkOnly),
+        ],
+        ..Interface::default()
+    }
+}
+
+impl FormationController {
+    fn take(&mut self, at: Times, port: usize, cdr: &[u8]) -> Result<(), CdrError> {
+        let inputs = &mut self.tick.inputs;
+        match port {
+            TEAM_STATE => inputs.team = Some(Heard { at: at.steady, message: TeamState::decode(cdr)? }),
+            GOALS => inputs.goals = Some(Heard { at: at.steady, message: Goals::decode(cdr)? }),
+            ASSIGNMENT => inputs.assignment = Some(Assignment::decode(cdr)?),
+            FORMATION => inputs.formation = Some(Formation::decode(cdr)?),
+            RUN_STATE => inputs.run = Some(RunState::decode(cdr)?),
+            APPARENT_OBSTACLES => {
+                inputs.obstacles = Some(Heard { at: at.steady, message: ApparentObstacleArray::decode(cdr)? });
+            }
+            EMERGENCY_STOP => inputs.emergency_stop = Bool::decode(cdr)?.data,
+            _ => {
+                let state = LeaderState::decode(cdr)?;
+                if let Some(name) = self.others.get(port - OTHERS) {
+                    inputs.others.insert(name.clone(), Heard { at: at.steady, message: state });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn drive(&mut self, at: Times, sink: &mut dyn Sink) {
+        let command = self.tick.run(at);
+        self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog));
+        self.send(&command, sink);
+        let (condition, text) = match &command.hold {
+            None => (Condition::Ok, "driving".to_owned()),
+            Some(hold) => (hold.condition(), hold.to_string()),
+        };
+        self.health.set("motion", condition, text);
+        self.health.value("motion", "limits", command.limits);
+    }
+
+    fn send(&self, command: &Command, sink: &mut dyn Sink) {
+        let mut twist = Twist::default();
+        (twist.linear.x, twist.angular.z) = (command.twist.v, command.twist.omega);
+        if self.tick.settings.stamped {
+            let frame_id = format!("{}/base_link", self.tick.settings.robot);
+            let header = Header { stamp: command.exposure.into(), frame_id };
+            sink.publish(CMD_VEL, &TwistStamped { header, twist });
+        } else {
+            sink.publish(CMD_VEL, &twist);
+        }
+        if command.pose.is_some() {
+            sink.publish(LEADER_STATE, &self.leader_state(command));
+        }
+    }
+
+    fn leader_state(&self, command: &Command) -> LeaderState {
+        let (settings, inputs) = (&self.tick.settings, &self.tick.inputs);
+        let member = inputs.assignment.as_ref().and_then(|assignment| {
+            let member = assignment.members.iter().find(|member| member.robot == settings.robot)?;
+            Some((assignment.epoch, assignment.formation_hash, member))
+        });
+        let state = inputs.robot(&settings.robot);
+        let velocity = state.map_or(Vector2::zeros(), |state| {
+            let (sin, cos) = libm::sincos(state.theta);
+            state.v * Vector2::new(cos, sin)
+        });
+        let tracked = command.tracked;
+        let mut message = LeaderState {
+            header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
+            robot: settings.robot.clone(),
+            position: state.map(|state| point(Vector2::new(state.x, state.y))).unwrap_or_default(),
+            theta: state.map_or(0.0, |state| state.theta),
+            velocity: point(velocity),
+            goal: command.goal.map(|goal| point(goal.position)).unwrap_or_default(),
+            goal_distance: tracked.map_or(0.0, |tracked| tracked.distance),
+            lyapunov: tracked.map_or(0.0, |tracked| tracked.lyapunov.value),
+            lyapunov_rate: tracked.map_or(0.0, |tracked| tracked.lyapunov.rate),
+            limited_by: command.limits,
+            ..LeaderState::default()
+        };
+        if let Some((epoch, hash, member)) = member {
+            (message.epoch, message.formation_hash) = (epoch, hash);
+            (message.queue, message.rank) = (member.queue, member.rank);
+        }
+        if let Some((distance, tolerance)) = self.tick.segment_distance(vector(&message.position), message.queue) {
+            message.segment_distance = distance;
+            message.conforms = distance <= tolerance;
+        }
+        message
+    }
+
+    fn bad_message(&mut self, error: &CdrError, port: usize, sink: &mut dyn Sink) {
+        self.bad_messages += 1;
+        let topic = &self.interface.subscriptions[port].topic;
+        self.health.set("messages", Condition::Warn, format!("a message on {topic} was dropped: {error}"));
+        self.health.value("messages", "dropped", self.bad_messages);
+        if self.bad_messages == 1 {
+            sink.log(Level::Warn, &format!("a message on {topic} was dropped: {error}"));
+        }
+    }
+}
+
+impl NodeCore for FormationController {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        match event {
+            Event::Started => {
+                self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog));
+                if let Some(warning) = self.warning.take() {
+                    sink.log(Level::Warn, &warning);
+                }
+            }
+            Event::Message { port, cdr, .. } => match self.take(at, port, cdr) {
+                // The team state is the tick (invariant 10); an emergency stop does not wait for it.
+                Ok(()) if port == TEAM_STATE || port == EMERGENCY_STOP => self.drive(at, sink),
+                Ok(()) => {}
+                Err(error) => self.bad_message(&error, port, sink),
+            },
+            Event::Wakeup => self.drive(at, sink),
+            Event::Shutdown => self.send(&self.tick.rest(at), sink),
+            _ => {}
+        }
+        self.health.publish(at, DIAGNOSTICS, sink);
+    }
+
+    fn next_wakeup(&self) -> Option<Steady> {
+        self.wakeup
+    }
+
+    fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        let settings = Settings::read(parameters, &format!("/{}", self.tick.settings.robot))?;
+        self.warning = admit_gains(parameters)?;
+        self.tick.settings = settings;
+        Ok(())
+    }
+}

@@ -1,0 +1,70 @@
+//! What outlives the process: run state, zero of time, assignment (invariant 12).
+
+use crate::RunMachine;
+use trench_core::RosTime;
+use trench_msgs::msg::{Assignment, RunState};
+use trench_msgs::{Encode, Message};
+
+/// The state of a run as it goes into a file: two messages, each behind its length.
+#[must_use]
+pub(crate) fn write(run: &RunMachine, assignment: Option<&Assignment>) -> Vec<u8> {
+    let state = RunState {
+        state: run.state(),
+        t0: run.t0().map(Into::into).unwrap_or_default(),
+        reason: run.reason().to_owned(),
+        ..RunState::default()
+    };
+    let mut bytes = Vec::new();
+    for cdr in [state.to_cdr(), assignment.map(Encode::to_cdr).unwrap_or_default()] {
+        bytes.extend_from_slice(&(cdr.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(&cdr);
+    }
+    bytes
+}
+
+/// Reads it back, or nothing where the bytes are not what [`write`] makes: a damaged checkpoint is no checkpoint.
+#[must_use]
+pub(crate) fn read(bytes: &[u8]) -> Option<(RunMachine, Option<Assignment>)> {
+    let (state, rest) = part(bytes)?;
+    let (assignment, rest) = part(rest)?;
+    if !rest.is_empty() {
+        return None;
+    }
+    let state = RunState::decode(state).ok()?;
+    let t0 = RosTime::from(&state.t0);
+    let run = RunMachine::resume(state.state, (t0.0 != 0).then_some(t0), state.reason);
+    let assignment = if assignment.is_empty() { None } else { Some(Assignment::decode(assignment).ok()?) };
+    Some((run, assignment))
+}
+
+fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (length, rest) = bytes.split_first_chunk::<4>()?;
+    rest.split_at_checked(u32::from_le_bytes(*length) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Request;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let mut run = RunMachine::default();
+        run.request(Request::Arm, Ok(())).unwrap();
+        run.request(Request::Start, Ok(())).unwrap();
+        run.localised(RosTime(1_500_000_000));
+        let assignment = Assignment { epoch: 7, ..Default::default() };
+        assert_eq!(read(&write(&run, Some(&assignment))), Some((run.clone(), Some(assignment))));
+        assert_eq!(read(&write(&run, None)), Some((run, None)));
+    }
+
+    #[test]
+    fn damage_is_noticed() {
+        let bytes = write(&RunMachine::default(), None);
+        for length in 0..bytes.len() {
+            assert_eq!(read(&bytes[..length]), None, "cut to {length}");
+        }
+        assert_eq!(read(&[bytes, vec![0]].concat()), None);
+        assert_eq!(read(&[0xff; 64]), None);
+    }
+}

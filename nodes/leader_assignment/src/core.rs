@@ -1,0 +1,301 @@
+//! The node core.
+
+use crate::organise::{Seated, organise};
+use crate::settings::{Settings, descriptors};
+use crate::virtual_point::{Carrier, virtual_point};
+use crate::{Request, RunMachine, checkpoint};
+use trench_config::{ConfigError, Parameters};
+use trench_core::{
+    Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
+    RequestId, RosTime, Serve, Sink, StartError, Steady, Subscribe, Times, resolve_name,
+};
+use trench_formation::Vector2;
+use trench_msgs::cdr::CdrError;
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::msg::{Assignment, Formation, Goal, Goals, Point2, RobotState, RunState, TeamState};
+use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::std_msgs::Header;
+use trench_msgs::std_srvs::{Trigger, TriggerResponse};
+use trench_msgs::{Message, service_info};
+
+const TEAM_STATE: usize = 0;
+const TARGET: usize = 1;
+
+const FORMATION: usize = 0;
+const ASSIGNMENT: usize = 1;
+const GOALS: usize = 2;
+const RUN_STATE: usize = 3;
+const DIAGNOSTICS: usize = 4;
+
+/// In the order of the services: ~/arm, ~/start, ~/stop, ~/reset.
+const REQUESTS: [Request; 4] = [Request::Arm, Request::Start, Request::Stop, Request::Reset];
+
+/// Room for a message about twenty robots in shared memory.
+const TEAM: Local = Local::SharedMemory { max_len: 8192 };
+
+/// Who goes where, and when.
+pub struct LeaderAssignment {
+    interface: Interface,
+    settings: Settings,
+    run: RunMachine,
+    assignment: Option<Assignment>,
+    seats: Vec<Seated>,
+    team: Option<TeamState>,
+    target: Option<(Steady, Carrier)>,
+    health: Health,
+    wakeup: Option<Steady>,
+}
+
+/// The node as processes and the simulator make it.
+#[must_use]
+pub fn description() -> NodeDescription {
+    NodeDescription {
+        name: "leader_assignment",
+        about: "Assigns robots to queues, orders teams into chains, publishes goals and the run state",
+        parameters: descriptors,
+        build,
+    }
+}
+
+fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let settings = Settings::read(parameters, files)?;
+    let resumed = context.checkpoint.as_deref().and_then(checkpoint::read);
+    let hash = settings.plan.message(Header::default()).hash;
+    // A checkpoint of another formation or other robots is of another run.
+    let resumed = resumed.filter(|(_, assignment)| {
+        assignment.as_ref().is_some_and(|old| old.formation_hash == hash && same_robots(old, &settings.robots))
+    });
+    let (run, assignment) = resumed.unwrap_or_default();
+    let seats = assignment.as_ref().map(|old| Seated::of_assignment(&settings.plan, old)).unwrap_or_default();
+    Ok(Box::new(LeaderAssignment {
+        interface: interface(),
+        health: Health::new(resolve_name("~", &context.namespace, &context.name)),
+        settings,
+        run,
+        assignment,
+        seats,
+        team: None,
+        target: None,
+        wakeup: None,
+    }))
+}
+
+fn same_robots(assignment: &Assignment, robots: &[String]) -> bool {
+    let mut members: Vec<&String> = assignment.members.iter().map(|member| &member.robot).collect();
+    members.sort();
+    members.into_iter().eq(robots)
+}
+
+fn interface() -> Interface {
+    let subscribe = |topic: &str, type_info| Subscribe { topic: topic.to_owned(), type_info, qos: Qos::RELIABLE };
+    let advertise =
+        |topic: &str, type_info, qos, local| Advertise { topic: topic.to_owned(), type_info, qos, local };
+    let serve = |name: &str| Serve { name: format!("~/{name}"), service: service_info::<Trigger>() };
+    Interface {
+        subscriptions: vec![subscribe("/team_state", TeamState::TYPE), subscribe("/target", Odometry::TYPE)],
+        publications: vec![
+            advertise("/formation", Formation::TYPE, Qos::LATCHED, Local::NetworkOnly),
+            advertise("/assignment", Assignment::TYPE, Qos::LATCHED, Local::NetworkOnly),
+            advertise("/goals", Goals::TYPE, Qos::RELIABLE, TEAM),
+            advertise("/run_state", RunState::TYPE, Qos::LATCHED, Local::NetworkOnly),
+            advertise("/diagnostics", DiagnosticArray::TYPE, Qos::RELIABLE, Local::NetworkOnly),
+        ],
+        services: ["arm", "start", "stop", "reset"].map(serve).into(),
+        ..Interface::default()
+    }
+}
+
+impl LeaderAssignment {
+    fn started(&mut self, at: Times, sink: &mut dyn Sink) {
+        let header = Header { stamp: at.ros.into(), frame_id: String::new() };
+        sink.publish(FORMATION, &self.settings.plan.message(header));
+        if let Some(assignment) = &self.assignment {
+            sink.publish(ASSIGNMENT, assignment);
+            sink.log(Level::Info, "resumed the run that was interrupted");
+        }
+        self.announce(at, sink);
+        self.wakeup = Some(at.steady.plus_seconds(1.0));
+    }
+
+    fn tick(&mut self, at: Times, team: TeamState, sink: &mut dyn Sink) {
+        let stamp = RosTime::from(&team.header.stamp);
+        self.team = Some(team);
+        if self.unlocalised().is_empty() && self.run.localised(stamp) {
+            self.announce(at, sink);
+        }
+        if let Some(goals) = self.goals(at, stamp) {
+            sink.publish(GOALS, &goals);
+        }
+    }
+
+    /// The goals at `stamp`; none before there is an assignment, or while the frame of the formation is not heard of.
+    fn goals(&self, at: Times, stamp: RosTime) -> Option<Goals> {
+        let (assignment, team) = (self.assignment.as_ref()?, self.team.as_ref()?);
+        let carrier = self.carrier(at)?;
+        let elapsed = self.run.t0().map_or(0.0, |t0| stamp.seconds_since(t0));
+        let goal = |seat: &Seated| {
+            let queue = &self.settings.plan.queues[seat.queue];
+            let robot = team.robots.iter().find(|robot| robot.name == seat.robot)?;
+            let here = carrier.from_map(Vector2::new(robot.x, robot.y));
+            let point = virtual_point(&queue.curve, queue.places[seat.place], self.settings.plan.motion, elapsed, here);
+            let point = point.carried(&carrier);
+            Some(Goal {
+                robot: seat.robot.clone(),
+                phase: point.phase,
+                position: to_message(point.motion.position),
+                velocity: to_message(point.motion.velocity),
+                acceleration: to_message(point.motion.acceleration),
+                remaining: point.remaining,
+            })
+        };
+        let mut goals: Vec<Goal> = self.seats.iter().filter_map(goal).collect();
+        goals.sort_by(|a, b| a.robot.cmp(&b.robot));
+        let header = Header { stamp: stamp.into(), frame_id: "map".to_owned() };
+        Some(Goals { header, epoch: assignment.epoch, goals })
+    }
+
+    fn carrier(&self, at: Times) -> Option<Carrier> {
+        if self.settings.target_age_limit.is_infinite() {
+            return Some(Carrier::MAP);
+        }
+        let (heard, carrier) = self.target.as_ref()?;
+        (at.steady.seconds_since(*heard) <= self.settings.target_age_limit).then_some(*carrier)
+    }
+
+    fn request(&mut self, at: Times, request: Request, sink: &mut dyn Sink) -> TriggerResponse {
+        let ready = self.ready();
+        let answer = self.run.request(request, ready);
+        if answer.is_ok() {
+            if matches!(request, Request::Arm | Request::Start) {
+                self.assign(at, sink);
+            }
+            self.announce(at, sink);
+        }
+        let (success, message) = match answer {
+            Ok(message) => (true, message),
+            Err(message) => (false, message),
+        };
+        sink.log(Level::Info, &format!("{request:?}: {message}"));
+        TriggerResponse { success, message }
+    }
+
+    /// What speaks against moving.
+    fn ready(&self) -> Result<(), String> {
+        if self.team.is_none() {
+            return Err("no /team_state was heard: is the localizer running?".to_owned());
+        }
+        let missing = self.unlocalised();
+        if missing.is_empty() { Ok(()) } else { Err(format!("not localised: {}", missing.join(", "))) }
+    }
+
+    fn unlocalised(&self) -> Vec<&str> {
+        let tracked = |name: &&String| {
+            self.team.iter().flat_map(|team| &team.robots).any(|robot| {
+                robot.name == **name && robot.status == RobotState::STATUS_TRACKED
+            })
+        };
+        self.settings.robots.iter().filter(|name| !tracked(name)).map(String::as_str).collect()
+    }
+
+    fn assign(&mut self, at: Times, sink: &mut dyn Sink) {
+        let (Some(team), Some(carrier)) = (&self.team, self.carrier(at)) else { return };
+        let robots: Vec<(String, Vector2<f64>)> = team
+            .robots
+            .iter()
+            .filter(|robot| self.settings.robots.contains(&robot.name))
+            .map(|robot| (robot.name.clone(), carrier.from_map(Vector2::new(robot.x, robot.y))))
+            .collect();
+        self.seats = organise(&self.settings.plan, &robots, &self.seats, self.settings.keep_margin);
+        let header = Header { stamp: at.ros.into(), frame_id: self.settings.plan.frame.id().to_owned() };
+        let epoch = self.assignment.as_ref().map_or(0, |old| old.epoch) + 1;
+        let formation_hash = self.settings.plan.message(Header::default()).hash;
+        let members = self.seats.iter().map(Seated::member).collect();
+        let assignment = Assignment { header, epoch, formation_hash, members };
+        let same = self.assignment.as_ref().is_some_and(|old| old.members == assignment.members);
+        if !same {
+            sink.publish(ASSIGNMENT, &assignment);
+            self.assignment = Some(assignment);
+        }
+    }
+
+    fn announce(&mut self, at: Times, sink: &mut dyn Sink) {
+        sink.checkpoint(&checkpoint::write(&self.run, self.assignment.as_ref()));
+        sink.publish(
+            RUN_STATE,
+            &RunState {
+                header: Header { stamp: at.ros.into(), frame_id: String::new() },
+                state: self.run.state(),
+                epoch: self.assignment.as_ref().map_or(0, |assignment| assignment.epoch),
+                t0: self.run.t0().map(Into::into).unwrap_or_default(),
+                reason: self.run.reason().to_owned(),
+            },
+        );
+    }
+
+    fn take(&mut self, at: Times, port: usize, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), CdrError> {
+        match port {
+            TEAM_STATE => self.tick(at, TeamState::decode(cdr)?, sink),
+            TARGET => self.target = Some((at.steady, carrier_of(&Odometry::decode(cdr)?))),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn serve(&mut self, at: Times, service: usize, id: RequestId, sink: &mut dyn Sink) {
+        if let Some(&request) = REQUESTS.get(service) {
+            let response = self.request(at, request, sink);
+            sink.respond(service, id, &response);
+        }
+    }
+}
+
+/// The target's frame from its odometry; the twist of an Odometry is in the target's own frame.
+fn carrier_of(odometry: &Odometry) -> Carrier {
+    let orientation = &odometry.pose.pose.orientation;
+    let theta = 2.0 * libm::atan2(orientation.z, orientation.w);
+    let (sin, cos) = libm::sincos(theta);
+    let twist = &odometry.twist.twist;
+    let (ahead, aside) = (twist.linear.x, twist.linear.y);
+    Carrier {
+        position: Vector2::new(odometry.pose.pose.position.x, odometry.pose.pose.position.y),
+        theta,
+        velocity: Vector2::new(cos * ahead - sin * aside, sin * ahead + cos * aside),
+        omega: twist.angular.z,
+    }
+}
+
+fn to_message(vector: Vector2<f64>) -> Point2 {
+    Point2 { x: vector.x, y: vector.y }
+}
+
+impl NodeCore for LeaderAssignment {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        match event {
+            Event::Started => self.started(at, sink),
+            Event::Message { port, cdr, .. } => {
+                if let Err(error) = self.take(at, port, cdr, sink) {
+                    let topic = &self.interface.subscriptions[port].topic;
+                    self.health.set("messages", Condition::Warn, format!("a message on {topic} was dropped: {error}"));
+                }
+            }
+            Event::Request { service, id, .. } => self.serve(at, service, id, sink),
+            Event::Wakeup => self.wakeup = Some(at.steady.plus_seconds(1.0)),
+            _ => {}
+        }
+        self.health.set("run", Condition::Ok, format!("{}: {}", crate::state_name(self.run.state()), self.run.reason()));
+        self.health.publish(at, DIAGNOSTICS, sink);
+    }
+
+    fn next_wakeup(&self) -> Option<Steady> {
+        self.wakeup
+    }
+
+    fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        self.settings.keep_margin = parameters.f64("keep_margin")?;
+        Ok(())
+    }
+}
