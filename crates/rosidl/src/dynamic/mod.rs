@@ -1,0 +1,1 @@
+//! Decoding types that are known only at run time.

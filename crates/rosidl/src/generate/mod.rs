@@ -1,0 +1,76 @@
+//! Rust source from definitions: one module a package, one structure a message, one marker type a service.
+
+mod documentation;
+mod message;
+mod rust_type;
+mod service;
+mod view;
+
+use crate::definition::package_of;
+use crate::{Error, Library};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the generated source should look like.
+#[derive(Debug, Clone)]
+pub struct Settings<'a> {
+    /// The package whose types live in the module `msg`; every other package gets a module of its name.
+    pub own_package: &'a str,
+    /// Messages that also get a borrowed form, as they and what they contain are large or frequent.
+    pub views: &'a [&'a str],
+}
+
+/// What the parts of the generator share.
+struct Context<'a> {
+    library: &'a Library,
+    own_package: &'a str,
+    /// All messages with a borrowed form: those asked for and what they contain, if that holds strings or bytes.
+    views: BTreeSet<String>,
+}
+
+/// The Rust source of all types of the library, to be included at the root of a crate that has `Encode`, `Message`,
+/// `Service`, `ServiceInfo` and `TypeInfo` there, and `trench_rosidl` as dependency.
+///
+/// # Errors
+/// When a definition is missing or uses what no Rust type here stands for.
+pub fn generate(library: &Library, settings: &Settings) -> Result<String, Error> {
+    let views = view::closure(library, settings.views)?;
+    let context = Context { library, own_package: settings.own_package, views };
+    let mut modules: BTreeMap<String, String> = BTreeMap::new();
+    for definition in library.definitions() {
+        let module = modules.entry(definition.package().to_owned()).or_default();
+        *module += &message::generate(&context, definition)?;
+        if context.views.contains(&definition.name) {
+            *module += &view::generate(&context, definition)?;
+        }
+    }
+    for service in library.services() {
+        *modules.entry(package_of(&service.name).to_owned()).or_default() += &service::generate(&context, service)?;
+    }
+    let mut source = String::new();
+    for (package, items) in &modules {
+        let name = rust_type::module(&context, package);
+        source += &format!("/// The types of the ROS 2 package `{package}`.\npub mod {name} {{\n{items}}}\n\n");
+    }
+    Ok(source + &registry(&context))
+}
+
+/// The lists of everything generated, ordered by name.
+fn registry(context: &Context) -> String {
+    let list = |items: &mut dyn Iterator<Item = String>| items.collect::<Vec<_>>().join(",\n    ");
+    let types = list(
+        &mut context
+            .library
+            .definitions()
+            .map(|definition| format!("<{} as crate::Message>::TYPE", rust_type::path(context, &definition.name))),
+    );
+    let services = list(
+        &mut context
+            .library
+            .services()
+            .map(|service| format!("crate::service_info::<{}>()", rust_type::path(context, &service.name))),
+    );
+    format!(
+        "static TYPES: &[&crate::TypeInfo] = &[\n    {types},\n];\n\
+         static SERVICES: &[crate::ServiceInfo] = &[\n    {services},\n];\n"
+    )
+}

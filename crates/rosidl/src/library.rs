@@ -1,0 +1,166 @@
+//! Definitions that refer to each other.
+
+use crate::definition::{Base, Definition, Field, Service, Shape, package_of, short_name_of};
+use crate::{Error, hash};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// No real definition nests messages deeper than a few levels; a hostile one in a bag could exhaust the stack.
+const GREATEST_DEPTH: usize = 64;
+
+/// A set of definitions, in the order of their names.
+#[derive(Debug, Clone, Default)]
+pub struct Library {
+    definitions: BTreeMap<String, Definition>,
+    services: BTreeMap<String, Service>,
+}
+
+impl Library {
+    /// Adds a message, or one half of a service.
+    ///
+    /// # Errors
+    /// When the name is taken.
+    pub fn add_message(&mut self, definition: Definition) -> Result<(), Error> {
+        let name = definition.name.clone();
+        match self.definitions.insert(name.clone(), definition) {
+            None => Ok(()),
+            Some(_) => Err(Error::Duplicate(name)),
+        }
+    }
+
+    /// Adds a service with its two halves.
+    ///
+    /// # Errors
+    /// When the name is taken.
+    pub fn add_service(&mut self, service: Service) -> Result<(), Error> {
+        self.add_message(service.request.clone())?;
+        self.add_message(service.response.clone())?;
+        self.services.insert(service.name.clone(), service);
+        Ok(())
+    }
+
+    /// All messages and halves of services.
+    pub fn definitions(&self) -> impl Iterator<Item = &Definition> {
+        self.definitions.values()
+    }
+
+    /// All services.
+    pub fn services(&self) -> impl Iterator<Item = &Service> {
+        self.services.values()
+    }
+
+    /// The definition of this name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Definition> {
+        self.definitions.get(name)
+    }
+
+    /// A definition and all it contains, each once, every one behind those that it contains.
+    ///
+    /// # Errors
+    /// When one is missing, contains itself or nests too deeply.
+    pub fn closure(&self, name: &str) -> Result<Vec<&Definition>, Error> {
+        let mut found = Vec::new();
+        self.visit(name, name, &mut Vec::new(), &mut BTreeSet::new(), &mut found)?;
+        Ok(found)
+    }
+
+    fn visit<'a>(
+        &'a self,
+        name: &str,
+        user: &str,
+        path: &mut Vec<&'a str>,
+        seen: &mut BTreeSet<&'a str>,
+        found: &mut Vec<&'a Definition>,
+    ) -> Result<(), Error> {
+        if path.contains(&name) {
+            return Err(Error::Cycle(name.to_owned()));
+        }
+        if path.len() == GREATEST_DEPTH {
+            return Err(Error::Depth(path[0].to_owned(), GREATEST_DEPTH));
+        }
+        if seen.contains(name) {
+            return Ok(());
+        }
+        let missing = || Error::Missing { name: user.to_owned(), missing: name.to_owned() };
+        let definition = self.definitions.get(name).ok_or_else(missing)?;
+        path.push(&definition.name);
+        for reference in definition.references() {
+            self.visit(reference, name, path, seen, found)?;
+        }
+        path.pop();
+        seen.insert(&definition.name);
+        found.push(definition);
+        Ok(())
+    }
+
+    /// The RIHS01 hash of a message or half of a service.
+    ///
+    /// # Errors
+    /// When something it contains is missing.
+    pub fn hash(&self, name: &str) -> Result<String, Error> {
+        let mut closure = self.closure(name)?;
+        let Some(root) = closure.pop() else {
+            return Err(Error::Name(name.to_owned()));
+        };
+        closure.sort_by(|a, b| a.name.cmp(&b.name));
+        Ok(hash::rihs01(root, &closure))
+    }
+
+    /// The RIHS01 hash of a service: of a type with its request, its response and its introspection event as fields.
+    ///
+    /// # Errors
+    /// When something it contains is missing; it needs `service_msgs/msg/ServiceEventInfo`.
+    pub fn service_hash(&self, service: &Service) -> Result<String, Error> {
+        let event = format!("{}_Event", service.name);
+        let field = |name: &str, of: &str, shape| Field {
+            name: name.to_owned(),
+            base: Base::Nested(of.to_owned()),
+            shape,
+            default: None,
+            comment: Vec::new(),
+        };
+        let definition = |name: &str, fields| Definition {
+            name: name.to_owned(),
+            comment: Vec::new(),
+            constants: Vec::new(),
+            fields,
+            text: String::new(),
+        };
+        let mut library = self.clone();
+        library.add_message(definition(
+            &event,
+            vec![
+                field("info", "service_msgs/msg/ServiceEventInfo", Shape::Single),
+                field("request", &service.request.name, Shape::Bounded(1)),
+                field("response", &service.response.name, Shape::Bounded(1)),
+            ],
+        ))?;
+        library.add_message(definition(
+            &service.name,
+            vec![
+                field("request_message", &service.request.name, Shape::Single),
+                field("response_message", &service.response.name, Shape::Single),
+                field("event_message", &event, Shape::Single),
+            ],
+        ))?;
+        library.hash(&service.name)
+    }
+
+    /// The definition as bags carry it (`ros2msg`): the text, then each dependency behind a line of 80 `=` and a line
+    /// `MSG: package/Type`.
+    ///
+    /// # Errors
+    /// When something it contains is missing.
+    pub fn ros2msg(&self, name: &str) -> Result<String, Error> {
+        let closure = self.closure(name)?;
+        let Some((root, dependencies)) = closure.split_last() else {
+            return Err(Error::Name(name.to_owned()));
+        };
+        let mut text = root.text.trim_end().to_owned() + "\n";
+        for dependency in dependencies {
+            let (package, short) = (package_of(&dependency.name), short_name_of(&dependency.name));
+            text += &format!("{}\nMSG: {package}/{short}\n{}\n", "=".repeat(80), dependency.text.trim_end());
+        }
+        Ok(text)
+    }
+}

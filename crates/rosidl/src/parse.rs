@@ -1,0 +1,147 @@
+//! The text of `.msg` and `.srv` files.
+
+use crate::definition::{Base, Constant, Definition, Field, Primitive, Service, Shape};
+use crate::{Error, literal};
+
+/// Parses the text of a `.msg` file. `name` is `package/msg/Name`.
+///
+/// # Errors
+/// With the line that is not understood.
+pub fn parse_message(name: &str, text: &str) -> Result<Definition, Error> {
+    let package = match name.split('/').collect::<Vec<_>>()[..] {
+        [package, "msg" | "srv", short] if is_identifier(package) && is_identifier(short) => package,
+        _ => return Err(Error::Name(name.to_owned())),
+    };
+    let mut definition = Definition {
+        name: name.to_owned(),
+        comment: Vec::new(),
+        constants: Vec::new(),
+        fields: Vec::new(),
+        text: text.to_owned(),
+    };
+    // The first block of comments describes the type, every later one what follows it.
+    let mut pending = Vec::new();
+    let mut at_head = true;
+    for (index, line) in text.lines().enumerate() {
+        let (code, comment) = split_comment(line);
+        if code.is_empty() {
+            match comment {
+                Some(comment) if at_head => definition.comment.push(comment),
+                Some(comment) => pending.push(comment),
+                None => {
+                    at_head &= definition.comment.is_empty();
+                    pending.clear();
+                }
+            }
+            continue;
+        }
+        at_head = false;
+        pending.extend(comment);
+        parse_line(code, package, std::mem::take(&mut pending), &mut definition).map_err(|problem| Error::Syntax {
+            name: name.to_owned(),
+            line: index + 1,
+            problem,
+        })?;
+    }
+    Ok(definition)
+}
+
+/// Parses the text of a `.srv` file. `name` is `package/srv/Name`.
+///
+/// # Errors
+/// With the line that is not understood, or when there is not one line `---`.
+pub fn parse_service(name: &str, text: &str) -> Result<Service, Error> {
+    let separators = text.lines().filter(|line| line.trim() == "---").count();
+    let lines: Vec<&str> = text.lines().collect();
+    let halves: Vec<String> = lines.split(|line| line.trim() == "---").map(|half| half.join("\n")).collect();
+    let [request, response] = &halves[..] else {
+        return Err(Error::Separator(name.to_owned(), separators));
+    };
+    let request = parse_message(&format!("{name}_Request"), request)?;
+    let response = parse_message(&format!("{name}_Response"), response)?;
+    Ok(Service { name: name.to_owned(), comment: request.comment.clone(), request, response })
+}
+
+/// A `#` starts a comment wherever it stands, as in ROS 2's own parser.
+fn split_comment(line: &str) -> (&str, Option<String>) {
+    match line.split_once('#') {
+        Some((code, comment)) => (code.trim(), Some(comment.trim_start_matches('#').trim().to_owned())),
+        None => (line.trim(), None),
+    }
+}
+
+fn parse_line(code: &str, package: &str, comment: Vec<String>, into: &mut Definition) -> Result<(), String> {
+    let (type_text, rest) = code.split_once(char::is_whitespace).ok_or(format!("`{code}` has a type but no name"))?;
+    let rest = rest.trim();
+    let (base, shape) = parse_type(type_text, package)?;
+    let name_end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+    let (name, tail) = rest.split_at(name_end);
+    if !is_identifier(name) {
+        return Err(format!("`{rest}` does not begin with a name"));
+    }
+    let known = into.fields.iter().map(|field| &field.name).chain(into.constants.iter().map(|constant| &constant.name));
+    if known.into_iter().any(|known| known == name) {
+        return Err(format!("the name {name} is used twice"));
+    }
+    let name = name.to_owned();
+    if let Some(value) = tail.trim_start().strip_prefix('=') {
+        if shape != Shape::Single {
+            return Err(format!("the constant {name} is an array"));
+        }
+        let value = literal::parse(value.trim(), &base, shape)?;
+        into.constants.push(Constant { name, base, value, comment });
+        return Ok(());
+    }
+    if !(tail.is_empty() || tail.starts_with(char::is_whitespace)) {
+        return Err(format!("`{tail}` follows the name {name}"));
+    }
+    let default = Some(tail.trim()).filter(|text| !text.is_empty());
+    let default = default.map(|text| literal::parse(text, &base, shape)).transpose()?;
+    into.fields.push(Field { name, base, shape, default, comment });
+    Ok(())
+}
+
+fn parse_type(text: &str, package: &str) -> Result<(Base, Shape), String> {
+    let (element, shape) = match text.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {
+        None => (text, Shape::Single),
+        Some((element, "")) => (element, Shape::Sequence),
+        Some((element, inside)) => match inside.strip_prefix("<=") {
+            Some(bound) => (element, Shape::Bounded(parse_size(bound)?)),
+            None => (element, Shape::Array(parse_size(inside)?)),
+        },
+    };
+    Ok((parse_base(element, package)?, shape))
+}
+
+fn parse_base(text: &str, package: &str) -> Result<Base, String> {
+    if let Some(primitive) = Primitive::from_name(text) {
+        return Ok(Base::Primitive(primitive));
+    }
+    let (kind, bound) = match text.split_once("<=") {
+        Some((kind, bound)) => (kind, Some(parse_size(bound)?)),
+        None => (text, None),
+    };
+    match (kind, bound) {
+        ("string", bound) => return Ok(Base::String { bound }),
+        ("wstring", bound) => return Ok(Base::WideString { bound }),
+        (_, Some(_)) => return Err(format!("`{text}`: only strings have a bound")),
+        (_, None) => {}
+    }
+    let (package, name) = match text.split('/').collect::<Vec<_>>()[..] {
+        [name] => (package, name),
+        [package, name] | [package, "msg", name] => (package, name),
+        _ => return Err(format!("`{text}` is not a type")),
+    };
+    if !(is_identifier(package) && is_identifier(name)) {
+        return Err(format!("`{text}` is not a type"));
+    }
+    Ok(Base::Nested(format!("{package}/msg/{name}")))
+}
+
+fn parse_size(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|size| *size > 0).ok_or_else(|| format!("`{text}` is not a size of 1 or more"))
+}
+
+fn is_identifier(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
