@@ -1,3 +1,39 @@
 //! The simulated test bed: plants, motors, bodies, camera renderer, radio medium, firmware.
+//!
+//! [`World`] holds what moves: robots with stepper motors, bodies that block each other, obstacles. [`Bed`] puts the
+//! radio before it (serial line, base station, air, firmware) and the camera's shutter above it. [`camera`] renders.
+//!
+//! Architecture invariant: pure and deterministic. Times are ns of a clock that the caller owns; chance comes from one
+//! seed; what happens does not depend on how often the bed is advanced.
 
+mod base_station;
+mod battery;
+mod bed;
 pub mod camera;
+mod contact;
+mod firmware;
+mod history;
+mod medium;
+mod obstacle;
+mod random;
+mod range_sensor;
+mod serial_line;
+mod setup;
+mod stepper;
+mod unicycle;
+mod world;
+
+pub use base_station::BaseStation;
+pub use bed::{Bed, Frame, Output};
+pub use contact::{Field, Thing};
+pub use firmware::{Firmware, Sensors};
+pub use history::Truth;
+pub use medium::{Arrival, Medium, MediumSetup};
+pub use obstacle::Obstacle;
+pub use random::Random;
+pub use range_sensor::{DIRECTIONS as RANGE_DIRECTIONS, REACH as RANGE_REACH};
+pub use serial_line::SerialLine;
+pub use setup::{BedSetup, Shutter, scattered};
+pub use stepper::{Motor, Wheel};
+pub use unicycle::{rolled, wrapped};
+pub use world::{Body, Contact, STEP, World};

@@ -1,0 +1,293 @@
+//! The whole test bed: world, camera shutter, serial line, base station, air, firmware, in the order of time.
+
+use crate::base_station::BaseStation;
+use crate::firmware::{Firmware, Sensors};
+use crate::medium::{Medium, MediumSetup};
+use crate::serial_line::SerialLine;
+use crate::setup::{BedSetup, Shutter};
+use crate::world::STEP;
+use crate::{Contact, Obstacle, Random, Truth, World, battery};
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+use trench_optics::Pose2;
+use trench_radio::{MAX_ROBOTS, Ranges};
+
+/// A round of telemetry, ns: every robot reports once.
+const ROUND: u64 = 100_000_000;
+
+/// Instants of an exposure at which the robots are drawn.
+const INSTANTS: usize = 4;
+
+/// What comes out of the test bed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// Bytes from the base station have arrived at the host.
+    Serial {
+        /// When, ns.
+        at: u64,
+        /// The bytes.
+        bytes: Vec<u8>,
+    },
+    /// A frame of the camera can be read.
+    Frame(Frame),
+    /// Bodies touch.
+    Contact(Contact),
+}
+
+/// What the camera saw.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Counts from 0.
+    pub number: u64,
+    /// The middle of the exposure, ns.
+    pub exposed_at: u64,
+    /// When the frame can be read, ns.
+    pub ready_at: u64,
+    /// For each robot its poses at equally spaced instants of the exposure.
+    pub exposure: Vec<Vec<Pose2>>,
+    /// For each robot its state at the middle of the exposure.
+    pub truth: Vec<Truth>,
+    /// What stood in the field.
+    pub obstacles: Vec<Obstacle>,
+}
+
+/// A packet on its way through the air. Ordered by arrival, then by when it was sent.
+type Flight = (u64, u64);
+
+#[derive(Debug, Clone)]
+struct Flying {
+    /// Index of the robot, sender or receiver.
+    robot: usize,
+    signal_dbm: i8,
+    packet: Arc<[u8]>,
+}
+
+/// The test bed. What happens in it depends on the times of the bytes written alone, not on how often it is advanced.
+#[derive(Debug, Clone)]
+pub struct Bed {
+    world: World,
+    firmware: Vec<(u8, Firmware)>,
+    medium: Medium,
+    base: BaseStation,
+    from_host: SerialLine,
+    to_host: SerialLine,
+    down: BTreeMap<Flight, Flying>,
+    up: BTreeMap<Flight, Flying>,
+    flights: u64,
+    shutter: Shutter,
+    start: u64,
+    exposed: u64,
+    reports: Vec<u64>,
+    frames: VecDeque<Frame>,
+    outputs: VecDeque<Output>,
+}
+
+/// What is due next, in the order in which things of one instant happen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Due {
+    Step,
+    Exposed,
+    FrameReady,
+    HostByte,
+    AtRobot,
+    Report(usize),
+    AtBase,
+    ToHost,
+}
+
+impl Bed {
+    /// Everything at rest at `setup.start`. The first frame is exposed one period later.
+    #[must_use]
+    pub fn new(setup: BedSetup) -> Self {
+        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, baud, key } = setup;
+        let poses = robots.iter().map(|(_, pose)| *pose).collect();
+        let slot = |id: u8| start + u64::from(id) * (ROUND / MAX_ROBOTS as u64);
+        Self {
+            world: World::new(start, body, field, obstacles, poses),
+            firmware: robots.iter().map(|&(id, _)| (id, Firmware::new(id, key.clone(), start))).collect(),
+            medium: Medium::new(medium, Random::new(seed, 1)),
+            base: BaseStation::default(),
+            from_host: SerialLine::new(baud),
+            to_host: SerialLine::new(baud),
+            down: BTreeMap::new(),
+            up: BTreeMap::new(),
+            flights: 0,
+            shutter,
+            start,
+            exposed: 0,
+            reports: robots.iter().map(|&(id, _)| slot(id)).collect(),
+            frames: VecDeque::new(),
+            outputs: VecDeque::new(),
+        }
+    }
+
+    /// The world.
+    #[must_use]
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The world, for those who interfere with it.
+    pub fn world_mut(&mut self) -> &mut World {
+        &mut self.world
+    }
+
+    /// The air becomes better or worse.
+    pub fn set_medium(&mut self, setup: MediumSetup) {
+        self.medium.set(setup);
+    }
+
+    /// The host writes to the line at time `now`, up to which the bed must have been advanced.
+    pub fn write_serial(&mut self, now: u64, bytes: &[u8]) {
+        self.from_host.write(now, bytes);
+    }
+
+    /// Lets time go on to `to` (ns), that instant included.
+    pub fn advance(&mut self, to: u64) {
+        while let Some((at, due)) = self.next()
+            && at <= to
+        {
+            self.happen(at, due);
+        }
+    }
+
+    /// Takes the next output, in the order of time.
+    pub fn pop_output(&mut self) -> Option<Output> {
+        self.outputs.pop_front()
+    }
+
+    /// Nothing comes out before this time unless bytes are written, ns.
+    #[must_use]
+    pub fn next_output(&self) -> Option<u64> {
+        let silent = |due: &Due| matches!(due, Due::Step | Due::Exposed | Due::AtRobot);
+        let frame = self.frame_ready();
+        self.dues().filter(|(_, due)| !silent(due)).map(|(at, _)| at).chain([frame]).min()
+    }
+
+    fn exposure_middle(&self) -> u64 {
+        self.start + (self.exposed + 1) * self.shutter.period
+    }
+
+    /// From the middle of an exposure until it is over and the world has stepped beyond it, ns.
+    fn exposure_end(&self) -> u64 {
+        self.shutter.exposure / 2 + STEP
+    }
+
+    fn frame_ready(&self) -> u64 {
+        self.exposure_middle() + self.shutter.delay.max(self.exposure_end())
+    }
+
+    fn next(&self) -> Option<(u64, Due)> {
+        self.dues().min()
+    }
+
+    fn dues(&self) -> impl Iterator<Item = (u64, Due)> {
+        let reports = self.reports.iter().enumerate().map(|(robot, at)| (*at, Due::Report(robot)));
+        let line = |line: &SerialLine, due| line.next_arrival().map(|at| (at, due));
+        let flight = |flights: &BTreeMap<Flight, Flying>, due| flights.keys().next().map(|(at, _)| (*at, due));
+        [
+            Some((self.world.now() + STEP, Due::Step)),
+            Some((self.exposure_middle() + self.exposure_end(), Due::Exposed)),
+            self.frames.front().map(|frame| (frame.ready_at, Due::FrameReady)),
+            line(&self.from_host, Due::HostByte),
+            flight(&self.down, Due::AtRobot),
+            flight(&self.up, Due::AtBase),
+            line(&self.to_host, Due::ToHost),
+        ]
+        .into_iter()
+        .flatten()
+        .chain(reports)
+    }
+
+    fn happen(&mut self, at: u64, due: Due) {
+        match due {
+            Due::Step => self.step(),
+            Due::Exposed => self.expose(),
+            Due::FrameReady => self.outputs.extend(self.frames.pop_front().map(Output::Frame)),
+            Due::HostByte => self.hear_host(at),
+            Due::AtRobot => {
+                if let Some((_, flying)) = self.down.pop_first()
+                    && let Some((_, firmware)) = self.firmware.get_mut(flying.robot)
+                {
+                    firmware.receive(at, &flying.packet, flying.signal_dbm);
+                }
+            }
+            Due::Report(robot) => self.report(at, robot),
+            Due::AtBase => self.hear_robot(at),
+            Due::ToHost => self.outputs.extend(self.to_host.read().map(|(at, bytes)| Output::Serial { at, bytes })),
+        }
+    }
+
+    /// The motors turn for a millisecond as the firmware told them at its beginning.
+    fn step(&mut self) {
+        self.world.step();
+        let now = self.world.now();
+        for (robot, (_, firmware)) in self.firmware.iter_mut().enumerate() {
+            let wheels = firmware.wheels(now);
+            self.world.tell(robot, [wheels.left.speed(), wheels.right.speed()]);
+        }
+        self.outputs.extend(self.world.take_contacts().into_iter().map(Output::Contact));
+    }
+
+    fn expose(&mut self) {
+        let (middle, exposure) = (self.exposure_middle(), self.shutter.exposure);
+        let robots = 0..self.firmware.len();
+        // The middles of equal parts of the exposure.
+        let instant = |part: usize| middle - exposure / 2 + exposure * (2 * part as u64 + 1) / (2 * INSTANTS as u64);
+        let truth = |robot: usize, at: u64| self.world.truth(robot, at).unwrap_or_default();
+        let poses = |robot: usize| (0..INSTANTS).map(|part| truth(robot, instant(part)).pose).collect();
+        self.frames.push_back(Frame {
+            number: self.exposed,
+            exposed_at: middle,
+            ready_at: self.frame_ready(),
+            exposure: robots.clone().map(poses).collect(),
+            truth: robots.map(|robot| truth(robot, middle)).collect(),
+            obstacles: self.world.obstacles().to_vec(),
+        });
+        self.exposed += 1;
+    }
+
+    fn hear_host(&mut self, now: u64) {
+        let Some((_, bytes)) = self.from_host.read() else { return };
+        let (mut packets, mut replies) = (Vec::<Arc<[u8]>>::new(), Vec::new());
+        self.base.from_host(&bytes, |packet| packets.push(packet.into()), &mut replies);
+        self.to_host.write(now, &replies);
+        for packet in packets {
+            for robot in 0..self.firmware.len() {
+                self.fly(now, robot, &packet, true);
+            }
+        }
+    }
+
+    fn report(&mut self, now: u64, robot: usize) {
+        self.reports[robot] += ROUND;
+        let wheels = self.world.wheels(robot).copied().unwrap_or_default();
+        let sensors = Sensors {
+            battery_mv: battery::millivolts(now - self.start),
+            steps: wheels.map(|wheel| wheel.steps),
+            lost_steps: wheels[0].lost + wheels[1].lost,
+            ranges: Ranges::new(&self.world.ranges(robot)),
+        };
+        let mut packet = Vec::new();
+        if let Some((_, firmware)) = self.firmware.get_mut(robot) {
+            firmware.report(now, sensors, &mut packet);
+        }
+        self.fly(now, robot, &packet.into(), false);
+    }
+
+    fn fly(&mut self, now: u64, robot: usize, packet: &Arc<[u8]>, down: bool) {
+        let pose = self.world.poses()[robot];
+        let Some(arrival) = self.medium.carry(now, pose) else { return };
+        self.flights += 1;
+        let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
+        let flights = if down { &mut self.down } else { &mut self.up };
+        flights.insert((arrival.at, self.flights), flying);
+    }
+
+    fn hear_robot(&mut self, now: u64) {
+        let Some((_, flying)) = self.up.pop_first() else { return };
+        let mut line = Vec::new();
+        self.base.from_robot(&flying.packet, flying.signal_dbm, self.to_host.backlog(now), &mut line);
+        self.to_host.write(now, &line);
+    }
+}

@@ -1,0 +1,245 @@
+//! The firmware of a robot: obeys commands while they are valid, reports, stops by itself.
+
+use trench_radio::{Fault, Freshness, Key, Packet, Payload, Ranges, Telemetry, Wheels};
+
+/// A command is obeyed for at most this long, whatever it says, ns.
+const AGE_LIMIT: u64 = 80_000_000;
+
+/// Below this voltage the battery is reported as low, mV.
+const LOW_BATTERY: u16 = 6800;
+
+/// More steps lost than this between two reports are reported.
+const LOST_STEPS: f64 = 8.0;
+
+const MILLISECOND: u64 = 1_000_000;
+
+/// What the robot's own sensors say.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Sensors {
+    /// mV
+    pub battery_mv: u16,
+    /// Steps told to the left and right motor.
+    pub steps: [f64; 2],
+    /// Steps lost by both motors together.
+    pub lost_steps: f64,
+    /// cm
+    pub ranges: Ranges,
+}
+
+/// The state of a robot's firmware.
+#[derive(Debug, Clone)]
+pub struct Firmware {
+    id: u8,
+    key: Option<Key>,
+    switched_on: u64,
+    freshness: Freshness,
+    wheels: Wheels,
+    obey_until: u64,
+    fault: Fault,
+    missed: u64,
+    signal_dbm: i8,
+    sent: u64,
+    lost_steps_reported: f64,
+    rejected: u64,
+}
+
+impl Firmware {
+    /// Switched on at `now` (ns). With a key it obeys nobody without.
+    #[must_use]
+    pub fn new(id: u8, key: Option<Key>, now: u64) -> Self {
+        Self {
+            id,
+            key,
+            switched_on: now,
+            freshness: Freshness::default(),
+            wheels: Wheels::STOP,
+            obey_until: now,
+            fault: Fault::default(),
+            missed: 0,
+            signal_dbm: 0,
+            sent: 0,
+            lost_steps_reported: 0.0,
+            rejected: 0,
+        }
+    }
+
+    /// The radio heard a packet.
+    pub fn receive(&mut self, now: u64, packet: &[u8], signal_dbm: i8) {
+        let Ok(packet) = Packet::decode(packet, self.key.as_ref()) else {
+            self.rejected += 1;
+            return;
+        };
+        if matches!(packet.payload, Payload::Telemetry(_)) {
+            return;
+        }
+        match self.freshness.accept(packet.counter, now, self.key.is_some()) {
+            Ok(missed) => self.missed += missed,
+            Err(_) => {
+                self.rejected += 1;
+                return;
+            }
+        }
+        self.signal_dbm = signal_dbm;
+        match packet.payload {
+            Payload::Commands(commands) => {
+                if let Some(&Some(wheels)) = commands.wheels.get(usize::from(self.id)) {
+                    self.obey(now, wheels, u64::from(commands.validity_ms) * MILLISECOND);
+                }
+            }
+            Payload::EmergencyStop(robots) if robots.contains(self.id) => {
+                self.fault.set(Fault::EMERGENCY_STOP);
+                self.wheels = Wheels::STOP;
+            }
+            Payload::Reset(robots) if robots.contains(self.id) => {
+                self.fault.0 &= !Fault::EMERGENCY_STOP.0;
+                self.wheels = Wheels::STOP;
+            }
+            Payload::EmergencyStop(_) | Payload::Reset(_) | Payload::Telemetry(_) => {}
+        }
+    }
+
+    /// What the motors are told at `now`.
+    pub fn wheels(&mut self, now: u64) -> Wheels {
+        if now >= self.obey_until && !self.fault.has(Fault::COMMAND_TIMEOUT) {
+            self.fault.set(Fault::COMMAND_TIMEOUT);
+            self.wheels = Wheels::STOP;
+        }
+        self.wheels
+    }
+
+    /// Packets that were broken, not authentic or not new.
+    #[must_use]
+    pub fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    /// The report of a telemetry slot.
+    pub fn report(&mut self, now: u64, sensors: Sensors, out: &mut Vec<u8>) {
+        let mut fault = self.fault;
+        if sensors.battery_mv < LOW_BATTERY {
+            fault.set(Fault::LOW_BATTERY);
+        }
+        if sensors.lost_steps - self.lost_steps_reported > LOST_STEPS {
+            fault.set(Fault::MISSED_STEPS);
+        }
+        self.lost_steps_reported = sensors.lost_steps;
+        let (last_counter, last_at) = self.freshness.last().unwrap_or_default();
+        let telemetry = Telemetry {
+            robot: self.id,
+            fault,
+            last_counter: last_counter as u16,
+            last_age_ms: u8::try_from(now.saturating_sub(last_at) / MILLISECOND).unwrap_or(u8::MAX),
+            missed: self.missed as u16,
+            battery_mv: sensors.battery_mv,
+            signal_dbm: self.signal_dbm,
+            steps_left: sensors.steps[0] as i64 as i32,
+            steps_right: sensors.steps[1] as i64 as i32,
+            uptime_ms: (now.saturating_sub(self.switched_on) / MILLISECOND) as u32,
+            ranges: sensors.ranges,
+        };
+        self.sent += 1;
+        let packet = Packet { relayed: 0, counter: self.sent, payload: Payload::Telemetry(telemetry) };
+        packet.encode(self.key.as_ref(), out);
+    }
+
+    fn obey(&mut self, now: u64, wheels: Wheels, validity: u64) {
+        self.obey_until = now + validity.min(AGE_LIMIT);
+        self.fault.0 &= !Fault::COMMAND_TIMEOUT.0;
+        self.wheels = if self.fault.has(Fault::EMERGENCY_STOP) { Wheels::STOP } else { wheels };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trench_radio::{Commands, RobotSet, WheelTimer};
+
+    fn forward() -> Wheels {
+        Wheels { left: WheelTimer::from_speed(0.1), right: WheelTimer::from_speed(0.1) }
+    }
+
+    fn send(firmware: &mut Firmware, now_ms: u64, counter: u64, payload: Payload, key: Option<&Key>) {
+        let mut bytes = Vec::new();
+        Packet { relayed: 0, counter, payload }.encode(key, &mut bytes);
+        firmware.receive(now_ms * MILLISECOND, &bytes, -60);
+    }
+
+    fn drive(validity_ms: u8) -> Payload {
+        let mut commands = Commands { validity_ms, ..Commands::default() };
+        commands.wheels[3] = Some(forward());
+        Payload::Commands(commands)
+    }
+
+    #[test]
+    fn stops_by_itself_when_the_validity_ends() {
+        for (validity_ms, ends) in [(0, 0), (30, 30), (80, 80), (255, 80)] {
+            let mut firmware = Firmware::new(3, None, 0);
+            send(&mut firmware, 1000, 1, drive(validity_ms), None);
+            if ends > 0 {
+                assert_eq!(firmware.wheels((1000 + ends) * MILLISECOND - 1), forward(), "{validity_ms}");
+            }
+            assert_eq!(firmware.wheels((1000 + ends) * MILLISECOND), Wheels::STOP, "{validity_ms}");
+        }
+    }
+
+    #[test]
+    fn emergency_stop_is_sticky_until_reset_and_rest_follows_reset() {
+        let mut firmware = Firmware::new(3, None, 0);
+        send(&mut firmware, 10, 1, drive(80), None);
+        send(&mut firmware, 20, 2, Payload::EmergencyStop(RobotSet::ALL), None);
+        send(&mut firmware, 30, 3, drive(80), None);
+        assert_eq!(firmware.wheels(31 * MILLISECOND), Wheels::STOP);
+        send(&mut firmware, 40, 4, Payload::Reset(RobotSet(1)), None);
+        send(&mut firmware, 41, 5, drive(80), None);
+        assert_eq!(firmware.wheels(42 * MILLISECOND), Wheels::STOP, "the reset was another robot's");
+        send(&mut firmware, 50, 6, Payload::Reset(RobotSet(1 << 3)), None);
+        assert_eq!(firmware.wheels(51 * MILLISECOND), Wheels::STOP);
+        send(&mut firmware, 60, 7, drive(80), None);
+        assert_eq!(firmware.wheels(61 * MILLISECOND), forward());
+    }
+
+    #[test]
+    fn forged_replayed_and_foreign_packets_do_not_move_it() {
+        let key = Key::new([1; 16]);
+        let check = |counter, sender: Option<&Key>, rejected| {
+            let mut firmware = Firmware::new(3, Some(key.clone()), 0);
+            send(&mut firmware, 10, 5, drive(0), Some(&key));
+            send(&mut firmware, 5000, counter, drive(80), sender);
+            let moves = firmware.wheels(5001 * MILLISECOND) != Wheels::STOP;
+            assert_eq!((moves, firmware.rejected()), (rejected == 0, rejected));
+        };
+        check(6, Some(&key), 0);
+        check(5, Some(&key), 1);
+        check(4, Some(&key), 1);
+        check(6, Some(&Key::new([2; 16])), 1);
+        check(6, None, 1);
+    }
+
+    #[test]
+    fn reports_what_it_missed() {
+        let mut firmware = Firmware::new(3, None, 0);
+        for counter in [1, 2, 5, 9] {
+            send(&mut firmware, counter * 30, counter, drive(80), None);
+        }
+        let mut bytes = Vec::new();
+        let sensors = Sensors { battery_mv: 6000, steps: [-3.7, 9.2], lost_steps: 9.0, ranges: Ranges::default() };
+        firmware.report(275 * MILLISECOND, sensors, &mut bytes);
+        let Ok(Packet { payload: Payload::Telemetry(telemetry), .. }) = Packet::decode(&bytes, None) else {
+            unreachable!("{bytes:?}")
+        };
+        let expected = Telemetry {
+            robot: 3,
+            fault: Fault(Fault::LOW_BATTERY.0 | Fault::MISSED_STEPS.0),
+            last_counter: 9,
+            last_age_ms: 5,
+            missed: 5,
+            battery_mv: 6000,
+            signal_dbm: -60,
+            steps_left: -3,
+            steps_right: 9,
+            uptime_ms: 275,
+            ranges: Ranges::default(),
+        };
+        assert_eq!(telemetry, expected);
+    }
+}
