@@ -1,1 +1,28 @@
 //! What turns a node core into a process: transports, clocks, parameters, log, diagnostics, signals.
+//!
+//! ```text
+//! fn main() -> std::process::ExitCode {
+//!     trench_runtime::run(DESCRIPTION)
+//! }
+//! ```
+//!
+//! Architecture invariant: one thread runs the core and everything it calls; it waits in one place and never blocks
+//! elsewhere.
+
+mod arguments;
+mod checkpoint;
+mod clock;
+mod exit;
+mod log;
+mod node;
+mod process;
+mod run;
+mod signals;
+mod stream;
+mod timer;
+mod transport;
+
+pub use arguments::{Arguments, ParameterSource, Remap, UsageError};
+pub use exit::Exit;
+pub use run::run;
+pub use transport::TransportError;

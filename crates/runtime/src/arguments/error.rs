@@ -1,0 +1,24 @@
+//! What can be wrong with a command line.
+
+/// An argument that is not understood.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum UsageError {
+    /// Not an argument of a node.
+    #[error("unknown argument `{0}`; ROS arguments stand behind --ros-args, see --help")]
+    Unknown(String),
+    /// The last argument wants a value.
+    #[error("{0} wants a value behind it")]
+    MissingValue(String),
+    /// Not `from:=to`.
+    #[error("`-r {0}` is no remapping; write -r from:=to, -r __node:=name or -r __ns:=/namespace")]
+    Remap(String),
+    /// Not `name:=value`.
+    #[error("`-p {0}` sets no parameter; write -p name:=value or -p node:name:=value")]
+    Parameter(String),
+    /// Not a level.
+    #[error("`--log-level {0}` names no level; write debug, info, warn, error or fatal, or logger:=level")]
+    LogLevel(String),
+    /// ROS_DOMAIN_ID is not a domain.
+    #[error("ROS_DOMAIN_ID is `{0}`; write a whole number from 0 to 232")]
+    Domain(String),
+}

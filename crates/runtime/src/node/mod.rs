@@ -1,0 +1,39 @@
+//! One node in its process: the core, what it reads and what it writes.
+
+mod caller;
+mod connect;
+mod deliver;
+mod ports;
+mod publication;
+mod subscription;
+
+pub(crate) use caller::Caller;
+pub(crate) use connect::{Connections, Equipment, connect};
+pub(crate) use ports::Ports;
+pub(crate) use publication::Publication;
+pub(crate) use subscription::Subscription;
+
+use trench_core::NodeCore;
+
+/// A running node.
+pub(crate) struct Node {
+    core: Box<dyn NodeCore>,
+    subscriptions: Vec<Subscription>,
+    clock: Option<Subscription>,
+    ports: Ports,
+}
+
+/// What woke the loop for a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wake {
+    /// /clock.
+    Clock,
+    /// A subscription.
+    Messages(usize),
+    /// A service's requests.
+    Requests(usize),
+    /// A client's responses.
+    Responses(usize),
+    /// A byte stream.
+    Stream(usize),
+}

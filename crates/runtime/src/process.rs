@@ -1,0 +1,128 @@
+//! The event loop: one thread for all cores of a process.
+
+use crate::clock::steady_now;
+use crate::node::{Node, Wake};
+use crate::signals::Signals;
+use crate::timer::Timer;
+use crate::transport::TransportError;
+use crate::transport::dds::{Participant, StatusReader};
+use rustdds::mio1::event::Source;
+use rustdds::mio1::{Events, Interest, Poll, Token};
+use std::io;
+use std::time::{Duration, Instant};
+use trench_core::Steady;
+
+/// Tokens of the process's own sources; those of its nodes follow.
+const STATUS: Token = Token(0);
+const TIMER: Token = Token(1);
+const SIGNALS: Token = Token(2);
+const OWN_TOKENS: usize = 3;
+
+/// How soon messages that the network did not take are offered again.
+const FLUSH_SECONDS: f64 = 0.002;
+
+/// How long last words have to leave.
+const LAST_WORDS: Duration = Duration::from_millis(200);
+
+/// A process with its nodes.
+pub(crate) struct Process {
+    poll: Poll,
+    timer: Timer,
+    signals: Signals,
+    status: StatusReader,
+    /// What each token means.
+    pub(crate) wakes: Vec<Option<(usize, Wake)>>,
+    pub(crate) nodes: Vec<Node>,
+    /// Lives as long as the endpoints of the nodes.
+    pub(crate) participant: Participant,
+}
+
+impl Process {
+    /// Joins the network; nodes are added afterwards.
+    pub(crate) fn new(domain: u16) -> Result<Self, TransportError> {
+        let system = |what| move |source| TransportError::System { what, source };
+        let participant = Participant::join(domain)?;
+        let poll = Poll::new().map_err(system("cannot make an event loop"))?;
+        let timer = Timer::new().map_err(system("cannot make a timer"))?;
+        let mut signals = Signals::new().map_err(system("cannot listen to signals"))?;
+        let mut status = participant.status();
+        timer.register(poll.registry(), TIMER).map_err(system("cannot wait for a timer"))?;
+        signals.register(poll.registry(), SIGNALS).map_err(system("cannot wait for signals"))?;
+        status.register(poll.registry(), STATUS, Interest::READABLE).map_err(system("cannot wait for the network"))?;
+        Ok(Self { poll, timer, signals, status, wakes: vec![None; OWN_TOKENS], nodes: Vec::new(), participant })
+    }
+
+    /// The pieces a node is connected to.
+    pub(crate) fn connections(&mut self) -> crate::node::Connections<'_> {
+        crate::node::Connections {
+            participant: &mut self.participant,
+            registry: self.poll.registry(),
+            wakes: &mut self.wakes,
+        }
+    }
+
+    /// Runs until a signal or a core ends it; gives the core's exit code, 0 after a signal.
+    pub(crate) fn run(mut self) -> io::Result<u8> {
+        self.nodes.iter_mut().for_each(Node::start);
+        let mut events = Events::with_capacity(256);
+        let code = loop {
+            self.tick()?;
+            if let Some(code) = self.nodes.iter().find_map(Node::exit) {
+                break code;
+            }
+            match self.poll.poll(&mut events, None) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                other => other?,
+            }
+            let mut asked_to_end = false;
+            for event in &events {
+                match event.token() {
+                    SIGNALS => asked_to_end = true,
+                    TIMER => self.timer.clear(),
+                    STATUS => self.follow_graph(),
+                    Token(token) => self.wake(token),
+                }
+            }
+            if asked_to_end {
+                break 0;
+            }
+        };
+        self.end();
+        Ok(code)
+    }
+
+    fn wake(&mut self, token: usize) {
+        if let Some(Some((index, wake))) = self.wakes.get(token)
+            && let Some(node) = self.nodes.get_mut(*index)
+        {
+            node.wake(*wake);
+        }
+    }
+
+    fn follow_graph(&mut self) {
+        for change in self.status.take() {
+            for node in &mut self.nodes {
+                node.graph_changed(&change);
+            }
+        }
+    }
+
+    /// Does what is due and arms the timer for what comes next.
+    fn tick(&mut self) -> io::Result<()> {
+        let now = steady_now();
+        let mut next: Option<Steady> = None;
+        for node in &mut self.nodes {
+            node.tick(now);
+            let flush = if node.flush() { None } else { Some(now.plus_seconds(FLUSH_SECONDS)) };
+            next = next.into_iter().chain(node.next_tick()).chain(flush).min();
+        }
+        self.timer.set(next)
+    }
+
+    /// Last words, and time for them to leave.
+    fn end(&mut self) {
+        self.nodes.iter_mut().for_each(Node::shut_down);
+        let deadline = Instant::now() + LAST_WORDS;
+        self.nodes.iter_mut().for_each(|node| node.settle(deadline));
+    }
+}

@@ -1,0 +1,158 @@
+//! From a command line to a running process.
+
+use crate::arguments::{Arguments, Names, ParameterSource, UsageError, help};
+use crate::checkpoint::Checkpoint;
+use crate::clock::Clock;
+use crate::exit::Exit;
+use crate::log::{Logger, logger_name};
+use crate::node::{Equipment, connect};
+use crate::process::Process;
+use crate::transport::TransportError;
+use crate::transport::dds::full_name;
+use std::process::ExitCode;
+use std::{env, fs, io};
+use trench_config::params::{self, Source};
+use trench_config::{ConfigError, Origin, ParameterDescriptor, Parameters};
+use trench_core::{Files, NodeContext, NodeCore, NodeDescription, StartError};
+
+/// The highest domain whose ports exist.
+const LAST_DOMAIN: u16 = 232;
+
+/// Why a process ends before or while it runs.
+#[derive(Debug, thiserror::Error)]
+enum RunError {
+    #[error(transparent)]
+    Usage(#[from] UsageError),
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Config(Vec<ConfigError>),
+    #[error(transparent)]
+    Start(#[from] StartError),
+    #[error(transparent)]
+    Transport(#[from] TransportError),
+    #[error("the event loop failed: {0}")]
+    System(#[from] io::Error),
+}
+
+impl RunError {
+    fn exit(&self) -> Exit {
+        match self {
+            Self::Usage(_) => Exit::Usage,
+            Self::Config(_) | Self::Start(_) => Exit::Configuration,
+            Self::Transport(_) => Exit::Transport,
+            Self::System(_) => Exit::System,
+        }
+    }
+}
+
+/// Runs a node as this process does with its command line, until it is asked to end. What is wrong is said on standard
+/// error, and the exit code says of which kind it is ([`Exit`]).
+#[must_use]
+pub fn run(description: NodeDescription) -> ExitCode {
+    match run_with(description, env::args().skip(1)) {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            eprintln!("{}: {error}", description.name);
+            error.exit().into()
+        }
+    }
+}
+
+fn run_with(description: NodeDescription, command_line: impl Iterator<Item = String>) -> Result<u8, RunError> {
+    let arguments = Arguments::parse(command_line)?;
+    let descriptors = (description.parameters)();
+    if arguments.help {
+        print!("{}", help::text(&description, &descriptors));
+        return Ok(0);
+    }
+    let domain = domain(env::var("ROS_DOMAIN_ID").ok())?;
+    let names = Names::new(&arguments.remaps, description.name);
+    let full = full_name(&names.namespace, &names.node);
+    let parameters = parameters(&arguments, &names, &descriptors).map_err(RunError::Config)?;
+    let checkpoint = Checkpoint::of(&full, domain);
+    let core = build(description, &names, &checkpoint, &parameters)?;
+
+    let use_sim_time = parameters.bool(params::USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
+    let name = logger_name(&full);
+    let level = arguments.level_of(&name);
+    let equipment = Equipment {
+        clock: Clock::new(use_sim_time),
+        logger: Logger::new(name, level, arguments.console),
+        rosout: arguments.rosout,
+        checkpoint,
+    };
+    let mut process = Process::new(domain)?;
+    let node = connect(core, 0, &names, equipment, &mut process.connections())?;
+    process.nodes.push(node);
+    process.participant.announce()?;
+    Ok(process.run()?)
+}
+
+fn domain(variable: Option<String>) -> Result<u16, UsageError> {
+    let Some(text) = variable.filter(|text| !text.is_empty()) else { return Ok(0) };
+    text.parse().ok().filter(|domain| *domain <= LAST_DOMAIN).ok_or(UsageError::Domain(text))
+}
+
+fn parameters(
+    arguments: &Arguments,
+    names: &Names<'_>,
+    descriptors: &[ParameterDescriptor],
+) -> Result<Parameters, Vec<ConfigError>> {
+    let mut texts = Vec::new();
+    for source in &arguments.parameters {
+        texts.push(match source {
+            ParameterSource::File(path) => read("--params-file", path).map_err(|error| vec![error])?,
+            ParameterSource::Override { .. } => String::new(),
+        });
+    }
+    let sources: Vec<_> = arguments
+        .parameters
+        .iter()
+        .zip(&texts)
+        .map(|(source, text)| match source {
+            ParameterSource::File(name) => Source::File { name, text },
+            ParameterSource::Override { node, name, value } => Source::Override { node: node.as_deref(), name, value },
+        })
+        .collect();
+    params::resolve(&sources, &names.namespace, &names.node, descriptors)
+}
+
+fn build(
+    description: NodeDescription,
+    names: &Names<'_>,
+    checkpoint: &Checkpoint,
+    parameters: &Parameters,
+) -> Result<Box<dyn NodeCore>, RunError> {
+    let context = NodeContext {
+        namespace: names.namespace.clone(),
+        name: names.node.clone(),
+        checkpoint: checkpoint.read()?,
+        seed: seed()?,
+    };
+    Ok((description.build)(&context, parameters, &FileSystem)?)
+}
+
+/// The host's randomness.
+fn seed() -> io::Result<u64> {
+    let mut bytes = [0; 8];
+    rustix::rand::getrandom(&mut bytes, rustix::rand::GetRandomFlags::empty())?;
+    Ok(u64::from_le_bytes(bytes))
+}
+
+/// The files of this host.
+struct FileSystem;
+
+impl Files for FileSystem {
+    fn read(&self, key: &str, path: &str) -> Result<String, ConfigError> {
+        read(key, path)
+    }
+}
+
+fn read(key: &str, path: &str) -> Result<String, ConfigError> {
+    fs::read_to_string(path).map_err(|error| ConfigError {
+        origin: Origin::new(path, 0),
+        key: key.to_owned(),
+        value: path.to_owned(),
+        problem: format!("cannot be read: {error}"),
+        remedy: "name a file that exists and is text".to_owned(),
+    })
+}

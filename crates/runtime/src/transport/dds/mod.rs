@@ -1,0 +1,25 @@
+//! The network: ROS 2 topics and services over DDS.
+//!
+//! RustDDS's own readers and writers are used rather than ros2-client's, because those hide what the runtime needs: the
+//! sequence number of a written sample, raw bytes, matches, and the send window. ros2-client gives the types that tell
+//! the ROS graph about the endpoints.
+
+mod client;
+mod graph;
+mod participant;
+mod qos;
+mod raw;
+mod reader;
+mod server;
+mod status;
+mod writer;
+
+pub(crate) use client::ServiceClient;
+pub(crate) use graph::full_name;
+pub(crate) use participant::{Participant, TopicName};
+pub(crate) use reader::{NetworkReader, NetworkSample};
+pub(crate) use server::{PendingRequest, ServiceServer};
+pub(crate) use status::{GraphChange, StatusReader};
+pub(crate) use writer::NetworkWriter;
+
+use super::TransportError;

@@ -1,0 +1,40 @@
+//! ROS 2's quality of service in DDS's words.
+
+use rustdds::qos::policy;
+use rustdds::{Duration, QosPolicies, QosPolicyBuilder};
+use trench_core::{Durability, Qos, Reliability};
+
+/// Samples that wait in the reader's cache until the event loop takes them. More than any burst that a node of a team
+/// sends between two turns of the loop: RustDDS drops the oldest ones beyond it.
+const UNREAD: i32 = 4096;
+
+/// What a writer offers. A write never blocks (zero blocking time): what does not fit the send window waits in the
+/// writer's own queue.
+pub(crate) fn writer(qos: Qos) -> QosPolicies {
+    common(qos).history(policy::History::KeepLast { depth: depth(qos) }).build()
+}
+
+/// What a reader asks for. The history is the cache between RustDDS's thread and the event loop, not a ROS queue, hence
+/// deeper than `qos.depth`.
+pub(crate) fn reader(qos: Qos) -> QosPolicies {
+    common(qos).history(policy::History::KeepLast { depth: UNREAD }).build()
+}
+
+/// Requests and responses of services, as ROS 2's default for services.
+pub(crate) const SERVICE: Qos = Qos { reliability: Reliability::Reliable, durability: Durability::Volatile, depth: 64 };
+
+fn common(qos: Qos) -> QosPolicyBuilder {
+    let durability = match qos.durability {
+        Durability::Volatile => policy::Durability::Volatile,
+        Durability::TransientLocal => policy::Durability::TransientLocal,
+    };
+    let reliability = match qos.reliability {
+        Reliability::BestEffort => policy::Reliability::BestEffort,
+        Reliability::Reliable => policy::Reliability::Reliable { max_blocking_time: Duration::ZERO },
+    };
+    QosPolicyBuilder::new().durability(durability).reliability(reliability)
+}
+
+fn depth(qos: Qos) -> i32 {
+    i32::try_from(qos.depth.max(1)).unwrap_or(i32::MAX)
+}

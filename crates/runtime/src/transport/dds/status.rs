@@ -1,0 +1,85 @@
+//! What changes in the ROS graph around this process.
+
+use rustdds::mio1::{Interest, Registry, Token, event};
+use rustdds::{DomainParticipantStatusEvent as Status, DomainParticipantStatusListener, GUID, StatusEvented};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+
+/// A change that nodes or their operator want to know of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum GraphChange {
+    /// The number of writers matched to a reader changed.
+    Matched { reader: GUID, writers: usize },
+    /// Another process writes a topic that some reader here may read.
+    Writer { topic: String, type_name: String },
+    /// A reader and a writer of one topic cannot talk.
+    Incompatible { local: GUID, remote: GUID },
+}
+
+/// Follows the matches of all readers of this process.
+pub(crate) struct StatusReader {
+    listener: DomainParticipantStatusListener,
+    matched: BTreeMap<GUID, BTreeSet<GUID>>,
+}
+
+impl StatusReader {
+    pub(super) fn new(listener: DomainParticipantStatusListener) -> Self {
+        Self { listener, matched: BTreeMap::new() }
+    }
+
+    /// All changes since the last call.
+    pub(crate) fn take(&mut self) -> Vec<GraphChange> {
+        let mut changes = Vec::new();
+        while let Some(status) = self.listener.try_recv_status() {
+            self.follow(status, &mut changes);
+        }
+        changes
+    }
+
+    fn follow(&mut self, status: Status, changes: &mut Vec<GraphChange>) {
+        match status {
+            Status::RemoteWriterMatched { local_reader, remote_writer } => {
+                let writers = self.matched.entry(local_reader).or_default();
+                if writers.insert(remote_writer) {
+                    changes.push(GraphChange::Matched { reader: local_reader, writers: writers.len() });
+                }
+            }
+            Status::WriterLost { guid, .. } => self.forget(|writer| *writer == guid, changes),
+            Status::ParticipantLost { id, .. } => self.forget(|writer| writer.prefix == id, changes),
+            Status::WriterDetected { writer } => {
+                changes.push(GraphChange::Writer { topic: writer.topic_name, type_name: writer.type_name });
+            }
+            Status::RemoteWriterQosIncompatible { local_reader, remote_writer, .. } => {
+                changes.push(GraphChange::Incompatible { local: local_reader, remote: remote_writer });
+            }
+            Status::RemoteReaderQosIncompatible { local_writer, remote_reader, .. } => {
+                changes.push(GraphChange::Incompatible { local: local_writer, remote: remote_reader });
+            }
+            _ => {}
+        }
+    }
+
+    fn forget(&mut self, lost: impl Fn(&GUID) -> bool, changes: &mut Vec<GraphChange>) {
+        for (reader, writers) in &mut self.matched {
+            let before = writers.len();
+            writers.retain(|writer| !lost(writer));
+            if writers.len() != before {
+                changes.push(GraphChange::Matched { reader: *reader, writers: writers.len() });
+            }
+        }
+    }
+}
+
+impl event::Source for StatusReader {
+    fn register(&mut self, registry: &Registry, token: Token, interests: Interest) -> io::Result<()> {
+        self.listener.register(registry, token, interests)
+    }
+
+    fn reregister(&mut self, registry: &Registry, token: Token, interests: Interest) -> io::Result<()> {
+        self.listener.reregister(registry, token, interests)
+    }
+
+    fn deregister(&mut self, registry: &Registry) -> io::Result<()> {
+        self.listener.deregister(registry)
+    }
+}

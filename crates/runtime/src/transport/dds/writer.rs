@@ -1,0 +1,91 @@
+//! The network end of a publication.
+
+use super::raw::{RawAdapter, RawMessage};
+use rustdds::bytes::Bytes;
+use rustdds::no_key::DataWriter;
+use rustdds::{GUID, RTPSEntity, SampleIdentity, Timestamp, WriteOptions, WriteOptionsBuilder};
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// Messages that may wait for room in the send window, which itself holds 8192 unacknowledged samples. Whoever is this
+/// far behind is not coming back; memory ends somewhere.
+const WAITING: usize = 8192;
+
+/// The network can take no more: the readers have not acknowledged thousands of messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Congested;
+
+/// Writes messages in order and never blocks: what the send window does not take waits here.
+pub(crate) struct NetworkWriter {
+    writer: DataWriter<RawMessage, RawAdapter>,
+    waiting: VecDeque<(RawMessage, WriteOptions)>,
+    accepted: u64,
+}
+
+impl NetworkWriter {
+    pub(super) fn new(writer: DataWriter<RawMessage, RawAdapter>) -> Self {
+        Self { writer, waiting: VecDeque::new(), accepted: 0 }
+    }
+
+    /// This writer's identity on the network.
+    pub(crate) fn gid(&self) -> [u8; 16] {
+        gid(self.writer.guid())
+    }
+
+    /// The count that the next accepted message will have.
+    pub(crate) fn next_sequence(&self) -> u64 {
+        self.accepted + 1
+    }
+
+    /// Whether [`NetworkWriter::write`] would take a message now.
+    pub(crate) fn has_room(&self) -> bool {
+        self.waiting.len() < WAITING
+    }
+
+    /// Takes a message (CDR with its header) for sending and gives its count.
+    pub(crate) fn write(&mut self, message: Bytes) -> Result<u64, Congested> {
+        self.write_with(message, WriteOptionsBuilder::new())
+    }
+
+    /// Like [`NetworkWriter::write`], saying which request a response answers.
+    pub(super) fn write_related(&mut self, message: Bytes, related: SampleIdentity) -> Result<u64, Congested> {
+        self.write_with(message, WriteOptionsBuilder::new().related_sample_identity(related))
+    }
+
+    fn write_with(&mut self, message: Bytes, options: WriteOptionsBuilder) -> Result<u64, Congested> {
+        if !self.has_room() {
+            return Err(Congested);
+        }
+        self.waiting.push_back((RawMessage(message), options.source_timestamp(Timestamp::now()).build()));
+        self.accepted += 1;
+        self.flush();
+        Ok(self.accepted)
+    }
+
+    /// Sends what waits, as far as the send window lets it; true when nothing waits any longer.
+    pub(crate) fn flush(&mut self) -> bool {
+        while let Some((message, options)) = self.waiting.pop_front() {
+            // A message is a counted reference to bytes: this clone copies none of them.
+            if self.writer.write_with_options(message.clone(), options.clone()).is_err() {
+                self.waiting.push_front((message, options));
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Waits until the readers have everything, or time is over.
+    pub(crate) fn settle(&mut self, max_wait: Duration) {
+        self.flush();
+        let _given_up = self.writer.wait_for_acknowledgments(max_wait);
+    }
+
+    pub(super) fn guid(&self) -> GUID {
+        self.writer.guid()
+    }
+}
+
+/// A DDS identity as ROS 2 shows it.
+pub(super) fn gid(guid: GUID) -> [u8; 16] {
+    guid.to_bytes()
+}

@@ -1,0 +1,103 @@
+//! Exactly once, in order: what a reader has had from each writer (architecture invariant 3).
+
+use std::collections::BTreeMap;
+use trench_core::Source;
+
+/// Writers remembered at once. More only ever live if hundreds of processes restart under one reader; then the one
+/// whose last message is the oldest is forgotten.
+const REMEMBERED: usize = 256;
+
+#[derive(Debug, Clone, Copy)]
+struct Writer {
+    last: u64,
+    used: u64,
+}
+
+/// The last count delivered from each writer, whichever transport brought it.
+///
+/// A writer hands message n to shared memory before the network and both keep its order, so "above the last count" is
+/// all there is to know: the second copy is dropped, and if one transport ends, the other goes on behind the last
+/// delivered message.
+#[derive(Debug, Default)]
+pub(crate) struct Delivered {
+    writers: BTreeMap<[u8; 16], Writer>,
+    uses: u64,
+    lost: u64,
+}
+
+impl Delivered {
+    /// Whether a message is news. Does not yet count as its delivery.
+    pub(crate) fn is_new(&self, source: Source) -> bool {
+        self.writers.get(&source.gid).is_none_or(|writer| source.sequence > writer.last)
+    }
+
+    /// Takes a message if it is news; false for a copy of one that was delivered.
+    pub(crate) fn accept(&mut self, source: Source) -> bool {
+        if !self.is_new(source) {
+            return false;
+        }
+        self.uses += 1;
+        let writer = Writer { last: source.sequence, used: self.uses };
+        if let Some(before) = self.writers.insert(source.gid, writer) {
+            self.lost += source.sequence - before.last - 1;
+        } else if self.writers.len() > REMEMBERED {
+            self.forget_oldest();
+        }
+        true
+    }
+
+    /// How many counts were skipped by writers that were heard before.
+    pub(crate) fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    fn forget_oldest(&mut self) {
+        let oldest = self.writers.iter().min_by_key(|(_, writer)| writer.used).map(|(gid, _)| *gid);
+        if let Some(gid) = oldest {
+            self.writers.remove(&gid);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(writer: u8, sequence: u64) -> Source {
+        Source { gid: [writer; 16], sequence }
+    }
+
+    #[test]
+    fn copies_are_dropped_and_gaps_counted() {
+        let mut delivered = Delivered::default();
+        let check = |delivered: &mut Delivered, sequence, expected| {
+            assert_eq!(delivered.accept(source(1, sequence)), expected, "{sequence}");
+        };
+        check(&mut delivered, 5, true);
+        check(&mut delivered, 5, false);
+        check(&mut delivered, 4, false);
+        check(&mut delivered, 6, true);
+        assert_eq!(delivered.lost(), 0, "what was sent before the first message is not lost");
+        check(&mut delivered, 9, true);
+        assert_eq!(delivered.lost(), 2);
+    }
+
+    #[test]
+    fn writers_do_not_share_counts() {
+        let mut delivered = Delivered::default();
+        assert!(delivered.accept(source(1, 100)));
+        assert!(delivered.accept(source(2, 1)), "a restarted writer has a new identity and counts from 1");
+    }
+
+    #[test]
+    fn memory_is_bounded_and_the_newest_are_kept() {
+        let mut delivered = Delivered::default();
+        for writer in 0..1000_u64 {
+            let mut gid = [0; 16];
+            gid[..8].copy_from_slice(&writer.to_le_bytes());
+            assert!(delivered.accept(Source { gid, sequence: 3 }));
+            assert!(!delivered.is_new(Source { gid, sequence: 3 }));
+        }
+        assert_eq!(delivered.writers.len(), REMEMBERED);
+    }
+}
