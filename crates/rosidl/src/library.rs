@@ -5,7 +5,7 @@ use crate::{Error, hash};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No real definition nests messages deeper than a few levels; a hostile one in a bag could exhaust the stack.
-const GREATEST_DEPTH: usize = 64;
+const GREATEST_DEPTH: usize = 32;
 
 /// A set of definitions, in the order of their names.
 #[derive(Debug, Clone, Default)]

@@ -2,6 +2,7 @@
 
 use crate::definition::{Base, Constant, Definition, Field, Primitive, Service, Shape};
 use crate::{Error, literal};
+use std::collections::BTreeSet;
 
 /// Parses the text of a `.msg` file. `name` is `package/msg/Name`.
 ///
@@ -22,6 +23,7 @@ pub fn parse_message(name: &str, text: &str) -> Result<Definition, Error> {
     // The first block of comments describes the type, every later one what follows it.
     let mut pending = Vec::new();
     let mut at_head = true;
+    let mut names = BTreeSet::new();
     for (index, line) in text.lines().enumerate() {
         let (code, comment) = split_comment(line);
         if code.is_empty() {
@@ -37,11 +39,9 @@ pub fn parse_message(name: &str, text: &str) -> Result<Definition, Error> {
         }
         at_head = false;
         pending.extend(comment);
-        parse_line(code, package, std::mem::take(&mut pending), &mut definition).map_err(|problem| Error::Syntax {
-            name: name.to_owned(),
-            line: index + 1,
-            problem,
-        })?;
+        let comment = std::mem::take(&mut pending);
+        let syntax = |problem| Error::Syntax { name: name.to_owned(), line: index + 1, problem };
+        parse_line(code, package, comment, &mut names, &mut definition).map_err(syntax)?;
     }
     Ok(definition)
 }
@@ -57,9 +57,9 @@ pub fn parse_service(name: &str, text: &str) -> Result<Service, Error> {
     let [request, response] = &halves[..] else {
         return Err(Error::Separator(name.to_owned(), separators));
     };
-    let request = parse_message(&format!("{name}_Request"), request)?;
+    let mut request = parse_message(&format!("{name}_Request"), request)?;
     let response = parse_message(&format!("{name}_Response"), response)?;
-    Ok(Service { name: name.to_owned(), comment: request.comment.clone(), request, response })
+    Ok(Service { name: name.to_owned(), comment: std::mem::take(&mut request.comment), request, response })
 }
 
 /// A `#` starts a comment wherever it stands, as in ROS 2's own parser.
@@ -70,7 +70,13 @@ fn split_comment(line: &str) -> (&str, Option<String>) {
     }
 }
 
-fn parse_line(code: &str, package: &str, comment: Vec<String>, into: &mut Definition) -> Result<(), String> {
+fn parse_line(
+    code: &str,
+    package: &str,
+    comment: Vec<String>,
+    names: &mut BTreeSet<String>,
+    into: &mut Definition,
+) -> Result<(), String> {
     let (type_text, rest) = code.split_once(char::is_whitespace).ok_or(format!("`{code}` has a type but no name"))?;
     let rest = rest.trim();
     let (base, shape) = parse_type(type_text, package)?;
@@ -79,11 +85,10 @@ fn parse_line(code: &str, package: &str, comment: Vec<String>, into: &mut Defini
     if !is_identifier(name) {
         return Err(format!("`{rest}` does not begin with a name"));
     }
-    let known = into.fields.iter().map(|field| &field.name).chain(into.constants.iter().map(|constant| &constant.name));
-    if known.into_iter().any(|known| known == name) {
+    let name = name.to_owned();
+    if !names.insert(name.clone()) {
         return Err(format!("the name {name} is used twice"));
     }
-    let name = name.to_owned();
     if let Some(value) = tail.trim_start().strip_prefix('=') {
         if shape != Shape::Single {
             return Err(format!("the constant {name} is an array"));

@@ -8,7 +8,7 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
     let name = rust_type::short(&definition.name);
     let types: Vec<String> =
         definition.fields.iter().map(|field| rust_type::owned(context, definition, field)).collect::<Result<_, _>>()?;
-    let mut source = structure(context, definition, &name, "", &types)?;
+    let mut source = structure(definition, &name, "", is_plain(context, definition), &types);
     source += &constants(&name, &definition.constants);
     source += &default(&name, definition);
     source += &codec(definition, &name, "", &types);
@@ -31,40 +31,33 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
 }
 
 /// The structure itself; `life` is `<'a>` for borrowed forms.
-pub(super) fn structure(
-    context: &Context,
-    definition: &Definition,
-    name: &str,
-    life: &str,
-    types: &[String],
-) -> Result<String, Error> {
-    let fallback = if life.is_empty() {
-        format!("`{}`.", definition.name)
-    } else {
-        format!("`{}`, its strings and bytes in place.", definition.name)
-    };
+pub(super) fn structure(definition: &Definition, name: &str, life: &str, copy: bool, types: &[String]) -> String {
+    let place = if life.is_empty() { "" } else { ", its strings and bytes in place" };
+    let fallback = format!("`{}`{place}.", definition.name);
     let mut source = documentation::lines(&definition.comment, &fallback, "");
-    let copy = if !life.is_empty() || is_plain(context, definition) { "Copy, " } else { "" };
+    let copy = if copy { "Copy, " } else { "" };
     let default = if rust_type::default_is_derivable(definition) { ", Default" } else { "" };
     source += &format!("#[derive(Debug, Clone, {copy}PartialEq{default})]\npub struct {name}{life} {{\n");
     for (field, rust) in definition.fields.iter().zip(types) {
         source += &documentation::lines(&field.comment, &format!("`{}`.", field.name), "    ");
         source += &format!("    pub {}: {rust},\n", rust_type::field_name(&field.name));
     }
-    Ok(source + "}\n\n")
+    source + "}\n\n"
 }
 
 /// Whether all values of the message have one size: then it is as good to copy as a number.
 fn is_plain(context: &Context, definition: &Definition) -> bool {
-    definition.fields.iter().all(|field| {
-        let fixed = matches!(field.shape, Shape::Single | Shape::Array(_));
-        fixed
-            && match &field.base {
-                Base::Primitive(_) => true,
-                Base::String { .. } | Base::WideString { .. } => false,
-                Base::Nested(name) => context.library.get(name).is_some_and(|nested| is_plain(context, nested)),
-            }
-    })
+    definition.fields.iter().all(|field| is_plain_field(context, field))
+}
+
+/// Whether all values of the field have one size.
+pub(super) fn is_plain_field(context: &Context, field: &Field) -> bool {
+    let plain = match &field.base {
+        Base::Primitive(_) => true,
+        Base::String { .. } | Base::WideString { .. } => false,
+        Base::Nested(name) => context.library.get(name).is_some_and(|nested| is_plain(context, nested)),
+    };
+    plain && matches!(field.shape, Shape::Single | Shape::Array(_))
 }
 
 fn constants(name: &str, constants: &[Constant]) -> String {

@@ -7,16 +7,22 @@ use crate::definition::{Base, Definition, Field, Literal, Primitive, Shape, pack
 /// `std::default::Default` of arrays ends here.
 const LONGEST_DEFAULT_ARRAY: usize = 32;
 
+/// Rust's keywords, reserved ones included, as far as they can be a field's name.
+const KEYWORDS: [&str; 48] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn", "else", "enum",
+    "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod", "move",
+    "mut", "override", "priv", "pub", "ref", "return", "static", "struct", "trait", "true", "try", "type", "typeof",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
 /// The module of a package.
-pub(super) fn module<'a>(context: &Context<'a>, package: &'a str) -> &'a str {
+pub(super) fn module<'a>(context: &Context, package: &'a str) -> &'a str {
     if package == context.own_package { "msg" } else { package }
 }
 
 /// `crate::geometry_msgs::Pose` of `geometry_msgs/msg/Pose`.
 pub(super) fn path(context: &Context, name: &str) -> String {
-    let package = package_of(name);
-    let module = if package == context.own_package { "msg" } else { package };
-    format!("crate::{module}::{}", short(name))
+    format!("crate::{}::{}", module(context, package_of(name)), short(name))
 }
 
 /// `TriggerRequest` of `std_srvs/srv/Trigger_Request`.
@@ -24,62 +30,13 @@ pub(super) fn short(name: &str) -> String {
     short_name_of(name).replace('_', "")
 }
 
-/// A field's name: `r#type` for `type`.
+/// A field's name: `r#type` for `type`, `self_` for `self`, which cannot be written raw.
 pub(super) fn field_name(name: &str) -> String {
-    const KEYWORDS: [&str; 51] = [
-        "abstract",
-        "as",
-        "async",
-        "await",
-        "become",
-        "box",
-        "break",
-        "const",
-        "continue",
-        "do",
-        "dyn",
-        "else",
-        "enum",
-        "extern",
-        "false",
-        "final",
-        "fn",
-        "for",
-        "gen",
-        "if",
-        "impl",
-        "in",
-        "let",
-        "loop",
-        "macro",
-        "match",
-        "mod",
-        "move",
-        "mut",
-        "override",
-        "priv",
-        "pub",
-        "ref",
-        "return",
-        "static",
-        "struct",
-        "trait",
-        "true",
-        "try",
-        "type",
-        "typeof",
-        "union",
-        "unsafe",
-        "unsized",
-        "use",
-        "virtual",
-        "where",
-        "while",
-        "yield",
-        "static_assert",
-        "_",
-    ];
-    if KEYWORDS.contains(&name) { format!("r#{name}") } else { name.to_owned() }
+    match name {
+        "self" | "super" | "crate" => format!("{name}_"),
+        _ if KEYWORDS.contains(&name) => format!("r#{name}"),
+        _ => name.to_owned(),
+    }
 }
 
 /// The type of a primitive.
@@ -148,6 +105,21 @@ pub(super) fn default(field: &Field) -> String {
 /// Whether `#[derive(Default)]` gives what the definition says.
 pub(super) fn default_is_derivable(definition: &Definition) -> bool {
     definition.fields.iter().all(|field| {
-        field.default.is_none() && !matches!(field.shape, Shape::Array(length) if length > LONGEST_DEFAULT_ARRAY)
+        let short = !matches!(field.shape, Shape::Array(length) if length > LONGEST_DEFAULT_ARRAY);
+        short && field.default.as_ref().is_none_or(|value| is_zero(value, field.shape))
     })
+}
+
+/// Whether a value is what Rust's `Default` gives.
+fn is_zero(value: &Literal, shape: Shape) -> bool {
+    match value {
+        Literal::Bool(value) => !value,
+        Literal::Integer(value) => *value == 0,
+        Literal::Float(value) => value.to_bits() == 0,
+        Literal::Text(text) => text.is_empty(),
+        Literal::List(values) => match shape {
+            Shape::Array(_) => values.iter().all(|value| is_zero(value, Shape::Single)),
+            _ => values.is_empty(),
+        },
+    }
 }

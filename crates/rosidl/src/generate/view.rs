@@ -25,7 +25,7 @@ pub(super) fn closure(library: &Library, asked: &[&str]) -> Result<BTreeSet<Stri
 
 fn is_borrowed(field: &Field) -> bool {
     match (&field.base, field.shape) {
-        (Base::String { bound: None }, Shape::Single) => true,
+        (Base::String { .. }, Shape::Single) => true,
         (Base::Primitive(primitive), Shape::Sequence) => matches!(primitive, Primitive::UInt8 | Primitive::Byte),
         _ => false,
     }
@@ -42,14 +42,15 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
             (Base::Nested(nested), Shape::Single) if context.views.contains(nested) => {
                 format!("{}View<'a>", rust_type::path(context, nested))
             }
-            (_, Shape::Single | Shape::Array(_)) => rust_type::owned(context, definition, field)?,
+            _ if message::is_plain_field(context, field) => rust_type::owned(context, definition, field)?,
             _ => {
                 let name = format!("{}.{}", definition.name, field.name);
-                return Err(Error::Unsupported { name, what: "a sequence other than of bytes in a borrowed form" });
+                let what = "a borrowed form of what is neither string, bytes nor of a fixed size";
+                return Err(Error::Unsupported { name, what });
             }
         });
     }
-    let mut source = message::structure(context, definition, &view, "<'a>", &types)?;
+    let mut source = message::structure(definition, &view, "<'a>", true, &types);
     source += &message::codec(definition, &view, "<'a>", &types);
     source += &message::encode(&view, &format!("<{name} as crate::Message>::TYPE"), "<'a>");
     source += &format!(
