@@ -1,1 +1,80 @@
-//! The safety filter that ends every law.
+//! The safety filter that ends every law (DESIGN invariant 8).
+//!
+//! [`SafetyFilter::apply`] is a pure function of one robot's surroundings. It passes a twist on bit for bit unless the
+//! twist breaks the rule or the straight way to the goal is blocked; then it heads for the way round and limits the
+//! speed by the rule. A robot is a disc about its axle's centre, so turning on the spot is always safe.
+mod detour;
+mod limit;
+mod parameters;
+mod scene;
+
+pub use parameters::{SafetyParameterError, SafetyParameters};
+pub use scene::{Constraint, MovingOutline, Neighbour, Scene};
+
+use crate::kinematics::{Pose, Twist, wrap};
+use nalgebra::Vector2;
+
+/// Gain (1/s) and limit (rad/s) of the turn towards a way round.
+const TURN_GAIN: f64 = 4.0;
+const MOST_TURN: f64 = 2.5;
+
+/// What a law wants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wish {
+    /// The law's twist.
+    pub twist: Twist,
+    /// Where the law drives to, m, frame `map`. Without it the filter slows and stops, but does not lead round.
+    pub goal: Option<Vector2<f64>>,
+}
+
+/// What is sent instead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filtered {
+    /// The twist to send.
+    pub twist: Twist,
+    /// What made it differ from the wish; `None` if the wish is passed on bit for bit.
+    pub acted: Option<Constraint>,
+}
+
+/// The filter of one robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SafetyFilter {
+    parameters: SafetyParameters,
+}
+
+impl SafetyFilter {
+    /// A filter for a robot and its loop.
+    ///
+    /// # Errors
+    /// A parameter that is not finite, or not positive where it must be.
+    pub fn new(parameters: SafetyParameters) -> Result<Self, SafetyParameterError> {
+        parameters.check()?;
+        Ok(Self { parameters })
+    }
+
+    /// The twist to send for a robot at `pose` that moves with twist `now` and whose law wants `wish`.
+    pub fn apply(&self, pose: Pose, now: Twist, wish: Wish, scene: &Scene<'_>) -> Filtered {
+        let place_known = (pose.x + pose.y + pose.theta).is_finite() && now.is_finite();
+        let wish_known = wish.twist.is_finite() && wish.goal.is_none_or(|goal| (goal.x + goal.y).is_finite());
+        if !(place_known && wish_known && scene.is_finite()) {
+            return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite) };
+        }
+        let detour = wish.goal.and_then(|goal| {
+            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal }.detour()
+        });
+        let (wanted, blocker) = match detour {
+            Some(detour) => (self.steer(pose, wish.twist, detour.direction), Some(detour.blocker)),
+            None => (wish.twist, None),
+        };
+        let (twist, decisive) = limit::limit(&self.parameters, scene, pose, now, wanted);
+        Filtered { twist, acted: decisive.or(blocker) }
+    }
+
+    /// Twist that turns the robot towards `direction`, at speed only once it faces there.
+    fn steer(&self, pose: Pose, wish: Twist, direction: Vector2<f64>) -> Twist {
+        let error = wrap(libm::atan2(direction.y, direction.x) - pose.theta);
+        let facing = libm::cos(error).max(0.0);
+        let speed = wish.v.abs().max(self.parameters.detour_speed);
+        Twist { v: speed * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
+    }
+}

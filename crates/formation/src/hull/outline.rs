@@ -1,0 +1,95 @@
+//! Distances of convex polygons that are rounded off by a radius.
+use nalgebra::Vector2;
+
+/// A convex polygon, corners counter-clockwise, grown by a radius: one point makes a disc, two a capsule. Borrowed, so
+/// that no query allocates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outline<'a> {
+    /// Corners, m; at least one.
+    pub points: &'a [Vector2<f64>],
+    /// Radius by which the polygon is grown, m.
+    pub radius: f64,
+}
+
+/// How a point lies to an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Approach {
+    /// Distance to the outline's boundary, m; negative inside.
+    pub gap: f64,
+    /// Unit vector from the point towards the outline: the direction in which the gap closes fastest.
+    pub towards: Vector2<f64>,
+}
+
+impl Outline<'_> {
+    /// Distance and direction of the outline from `point`.
+    pub fn approach(&self, point: Vector2<f64>) -> Approach {
+        let mut nearest = Vector2::repeat(f64::INFINITY);
+        let (mut depth, mut outward) = (f64::NEG_INFINITY, Vector2::x());
+        for (start, end) in self.edges() {
+            let (edge, offset) = (end - start, point - start);
+            let squared = edge.norm_squared();
+            let fraction = if squared > 0.0 { (offset.dot(&edge) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            let away = start + fraction * edge - point;
+            if away.norm_squared() < nearest.norm_squared() {
+                nearest = away;
+            }
+            let height = edge.perp(&offset) / -squared.sqrt();
+            if height > depth {
+                (depth, outward) = (height, Vector2::new(edge.y, -edge.x) / squared.sqrt());
+            }
+        }
+        if self.points.len() > 2 && depth <= 0.0 {
+            return Approach { gap: depth - self.radius, towards: -outward };
+        }
+        let distance = nearest.norm();
+        let towards = if distance > 0.0 { nearest / distance } else { -outward };
+        Approach { gap: distance - self.radius, towards }
+    }
+
+    /// Distance between two outlines, m; not positive if they overlap (then not their depth of penetration).
+    pub fn gap(&self, other: &Outline<'_>) -> f64 {
+        self.core_distance(other) - self.radius - other.radius
+    }
+
+    /// Distance between the polygons themselves; zero if they overlap.
+    fn core_distance(&self, other: &Outline<'_>) -> f64 {
+        if self.holds(other.points[0]) || other.holds(self.points[0]) {
+            return 0.0;
+        }
+        let mut least = f64::INFINITY;
+        for (start, end) in self.edges() {
+            for (other_start, other_end) in other.edges() {
+                least = least.min(segment_gap_squared((start, end), (other_start, other_end)));
+            }
+        }
+        least.sqrt()
+    }
+
+    /// Whether the polygon itself contains `point`.
+    fn holds(&self, point: Vector2<f64>) -> bool {
+        self.points.len() > 2 && self.edges().all(|(start, end)| (end - start).perp(&(point - start)) >= 0.0)
+    }
+
+    /// Edges in order; a single point is an edge of length zero.
+    fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+        let count = if self.points.len() == 2 { 1 } else { self.points.len() };
+        (0..count).map(|i| (self.points[i], self.points[(i + 1) % self.points.len()]))
+    }
+}
+
+type Segment = (Vector2<f64>, Vector2<f64>);
+
+/// Squared distance between two straight pieces; zero if they cross.
+fn segment_gap_squared(a: Segment, b: Segment) -> f64 {
+    let side = |line: Segment, point: Vector2<f64>| (line.1 - line.0).perp(&(point - line.0));
+    if side(a, b.0) * side(a, b.1) < 0.0 && side(b, a.0) * side(b, a.1) < 0.0 {
+        return 0.0;
+    }
+    let from = |point: Vector2<f64>, (start, end): Segment| {
+        let edge = end - start;
+        let squared = edge.norm_squared();
+        let fraction = if squared > 0.0 { ((point - start).dot(&edge) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        (start + fraction * edge - point).norm_squared()
+    };
+    from(a.0, b).min(from(a.1, b)).min(from(b.0, a)).min(from(b.1, a))
+}

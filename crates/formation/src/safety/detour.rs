@@ -1,0 +1,198 @@
+//! The way round what stands between a robot and its goal.
+//!
+//! What blocks the straight way is taken together with all that is too near to it to pass between (the combined hull
+//! of 7.4, seen from the robot's centre), and the robot heads for the tangent to this cluster on the side of the shorter
+//! way. Ties and near ties go to the right, for all robots alike: two that meet head-on see each other point-symmetrically,
+//! so both keep right, and so do four that meet at one point. Only positions decide, so there is nothing to forget.
+use super::SafetyParameters;
+use super::scene::{Constraint, Scene};
+use crate::hull::Outline;
+use crate::kinematics::wrap;
+use nalgebra::Vector2;
+
+/// How far ahead a blockage matters, m.
+const LOOK_AHEAD: f64 = 0.6;
+/// Space between a way round and what is passed, beyond the filter's margin, m.
+const BUFFER: f64 = 0.02;
+/// By how much the way on the left must be shorter to be taken, m.
+const RIGHT_BIAS: f64 = 0.05;
+/// Most blockages considered: the bits of the cluster's set.
+const MOST_ITEMS: usize = 128;
+
+/// Direction to take, and what blocks the straight way.
+pub(super) struct Detour {
+    pub(super) direction: Vector2<f64>,
+    pub(super) blocker: Constraint,
+}
+
+/// One end of a cluster as seen from the robot: the angle from the direction to the goal, and the tangent point.
+#[derive(Clone, Copy)]
+struct Extent {
+    angle: f64,
+    point: Vector2<f64>,
+}
+
+/// The robot's view of its surroundings.
+pub(super) struct View<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) parameters: &'a SafetyParameters,
+    pub(super) centre: Vector2<f64>,
+    pub(super) goal: Vector2<f64>,
+}
+
+impl View<'_> {
+    /// The way round, if the straight way to the goal is blocked and there is one.
+    pub(super) fn detour(&self) -> Option<Detour> {
+        let first = self.first_blocker(self.goal, 0)?;
+        let (mut members, mut blocker) = (0, first);
+        let mut chosen = None;
+        for _ in 0..4 {
+            let (cluster, [right, left]) = self.cluster(members, blocker);
+            members = cluster;
+            let left_side = match chosen {
+                Some(side) => side,
+                None => self.takes_left(right, left)?,
+            };
+            chosen = Some(left_side);
+            let target = if left_side { left.point } else { right.point };
+            match self.first_blocker(target, members) {
+                Some(next) => blocker = next,
+                None => {
+                    let direction = (target - self.centre).try_normalize(0.0)?;
+                    return Some(Detour { direction, blocker: self.constraint(first) });
+                }
+            }
+        }
+        None
+    }
+
+    fn count(&self) -> usize {
+        (self.scene.neighbours.len() + self.scene.obstacles.len()).min(MOST_ITEMS)
+    }
+
+    fn constraint(&self, item: usize) -> Constraint {
+        match item.checked_sub(self.scene.neighbours.len()) {
+            Some(obstacle) => Constraint::Obstacle(obstacle),
+            None => Constraint::Neighbour(item),
+        }
+    }
+
+    fn outline(&self, item: usize) -> Outline<'_> {
+        match item.checked_sub(self.scene.neighbours.len()) {
+            Some(obstacle) => self.scene.obstacles[obstacle].outline,
+            None => self.scene.neighbours[item].outline(),
+        }
+    }
+
+    /// Distance that the centre keeps from an item's polygon on a way round: less if the goal is nearer than that.
+    /// `None` if the item covers the goal for good; then there is no way round, and the robot stops near it.
+    fn berth(&self, item: usize) -> Option<f64> {
+        let outline = self.outline(item);
+        let touching = outline.radius + self.parameters.radius + self.parameters.margin;
+        let goal_distance = outline.approach(self.goal).gap + outline.radius;
+        let stays = self.scene.neighbours.get(item).is_none_or(|neighbour| neighbour.settled || !neighbour.cooperative);
+        if goal_distance >= touching {
+            return Some(goal_distance.min(touching + BUFFER));
+        }
+        (!stays).then_some(touching + BUFFER)
+    }
+
+    /// The nearest item, not in `passed`, on the straight way to `target`.
+    fn first_blocker(&self, target: Vector2<f64>, passed: u128) -> Option<usize> {
+        let way = target - self.centre;
+        let length = way.norm();
+        let direction = way.try_normalize(0.0)?;
+        let end = self.centre + length.min(LOOK_AHEAD) * direction;
+        let points = [self.centre, end];
+        let path = Outline { points: &points, radius: 0.0 };
+        let blocking = |item: &usize| {
+            let Some(berth) = self.berth(*item) else { return None };
+            let outline = self.outline(*item);
+            let approach = outline.approach(self.centre);
+            let distance = approach.gap + outline.radius;
+            // A little less than the berth of the tangent, which must itself be free.
+            let blocks = outline.gap(&path) + outline.radius < berth - 0.25 * BUFFER;
+            (blocks && approach.towards.dot(&direction) > 0.0).then_some(distance)
+        };
+        let items = (0..self.count()).filter(|item| passed & (1 << item) == 0);
+        items
+            .filter_map(|item| blocking(&item).map(|distance| (item, distance)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(item, _)| item)
+    }
+
+    /// Adds `seed`, and all that leaves no passage to a member, to the cluster; its extents to the right and left.
+    fn cluster(&self, members: u128, seed: usize) -> (u128, [Extent; 2]) {
+        let mut angles = [0.0; MOST_ITEMS];
+        let mut queue = [seed; MOST_ITEMS];
+        let (mut known, mut length) = (1_u128 << seed, 1);
+        let towards_goal = self.goal - self.centre;
+        let bearing = |item: usize| {
+            let approach = self.outline(item).approach(self.centre);
+            libm::atan2(towards_goal.perp(&approach.towards), towards_goal.dot(&approach.towards))
+        };
+        angles[seed] = bearing(seed);
+        for item in (0..self.count()).filter(|item| members & (1 << item) != 0 && *item != seed) {
+            (queue[length], angles[item]) = (item, bearing(item));
+            (known, length) = (known | 1 << item, length + 1);
+        }
+        let start = Extent { angle: 0.0, point: self.centre };
+        let mut extents = [Extent { angle: f64::INFINITY, ..start }, Extent { angle: f64::NEG_INFINITY, ..start }];
+        let mut next = 0;
+        while next < length {
+            let item = queue[next];
+            next += 1;
+            let Some(berth) = self.berth(item) else { continue };
+            self.widen(&mut extents, item, berth, angles[item]);
+            for other in 0..self.count() {
+                let passage = 2.0 * (self.parameters.radius + self.parameters.margin);
+                if known & (1 << other) == 0 && self.outline(item).gap(&self.outline(other)) < passage {
+                    known |= 1 << other;
+                    queue[length] = other;
+                    length += 1;
+                    angles[other] = angles[item] + wrap(bearing(other) - angles[item]);
+                }
+            }
+        }
+        (known, extents)
+    }
+
+    /// Widens the extents by the tangents to each corner of an item; from inside its berth, the way leads out.
+    fn widen(&self, extents: &mut [Extent; 2], item: usize, berth: f64, bearing: f64) {
+        let to_goal = self.goal - self.centre;
+        for corner in self.outline(item).points {
+            let arm = corner - self.centre;
+            let distance = arm.norm();
+            let angle = bearing + wrap(libm::atan2(to_goal.perp(&arm), to_goal.dot(&arm)) - bearing);
+            let (half, length) = if distance > berth {
+                (libm::asin(berth / distance), (distance * distance - berth * berth).sqrt())
+            } else {
+                let inside = ((berth - distance) / BUFFER).min(1.0);
+                (core::f64::consts::FRAC_PI_2 + 0.5 * inside, 0.0)
+            };
+            for (extent, sign) in extents.iter_mut().zip([-1.0, 1.0]) {
+                let edge = angle + sign * half;
+                if sign * edge > sign * extent.angle {
+                    let (sine, cosine) = libm::sincos(edge);
+                    let ahead = to_goal.normalize() * length.max(BUFFER);
+                    let point = Vector2::new(cosine * ahead.x - sine * ahead.y, sine * ahead.x + cosine * ahead.y);
+                    *extent = Extent { angle: edge, point: self.centre + point };
+                }
+            }
+        }
+    }
+
+    /// The side of the shorter way; `None` if neither is open.
+    fn takes_left(&self, right: Extent, left: Extent) -> Option<bool> {
+        let enclosed = left.angle - right.angle >= core::f64::consts::TAU;
+        let keep = self.parameters.radius + self.parameters.margin;
+        let open = |extent: Extent| !enclosed && self.scene.field_admits(extent.point, keep);
+        let way = |extent: Extent| (extent.point - self.centre).norm() + (self.goal - extent.point).norm();
+        match (open(right), open(left)) {
+            (true, true) => Some(way(left) + RIGHT_BIAS < way(right)),
+            (true, false) => Some(false),
+            (false, true) => Some(true),
+            (false, false) => None,
+        }
+    }
+}
