@@ -4,20 +4,24 @@
 mod dead_band;
 mod direct;
 mod family;
+mod goal_tracking;
 mod lyapunov;
 mod nominal;
 mod robust;
 mod tracking;
+mod zoned;
 
 use crate::kinematics::{Polar, Twist};
 
 pub use dead_band::DeadBand;
 pub use direct::Direct;
 pub use family::Family;
+pub use goal_tracking::{GoalTracking, Steered};
 pub use lyapunov::Lyapunov;
 pub use nominal::Nominal;
 pub use robust::Robust;
 pub use tracking::{GoalMotion, Tracked, Tracking};
+pub use zoned::{Attraction, ZonedAttraction};
 
 /// A point tracking law of chapter 4: the velocity it commands at given polar coordinates of a resting goal point.
 pub trait PointLaw {

@@ -1,1 +1,94 @@
 //! Potential trench functions of 5.2 and A.9.
+//!
+//! With d = |r_goal - r| a trench Phi pulls a robot by +Phi'(d) along the unit vector towards its goal point.
+mod admissibility;
+mod conic;
+mod critical;
+mod damping;
+mod hyperbolic;
+mod quadratic;
+mod saturated;
+mod square_root;
+mod table;
+
+pub use admissibility::{Admissible, Inadmissible, check_admissibility};
+pub use conic::Conic;
+pub use critical::CriticallyDamped;
+pub use damping::{ConstantDamping, Damping, HyperbolicDamping, SaturatedDamping};
+pub use hyperbolic::Hyperbolic;
+pub use quadratic::Quadratic;
+pub use saturated::Saturated;
+pub use square_root::SquareRoot;
+pub use table::{SlopeTable, TableError};
+
+/// A closed interval: Clarke's generalized gradient of a function of one variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// Whether `value` lies in it.
+    pub fn contains(self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// Its element nearest to 0.
+    pub fn smallest(self) -> f64 {
+        if self.contains(0.0) {
+            0.0
+        } else if self.low > 0.0 {
+            self.low
+        } else {
+            self.high
+        }
+    }
+}
+
+/// The limits of a derivative from the left and from the right; equal except at kinks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slopes {
+    /// From below.
+    pub left: f64,
+    /// From above.
+    pub right: f64,
+}
+
+impl Slopes {
+    /// Where the function is differentiable.
+    pub fn smooth(slope: f64) -> Self {
+        Self { left: slope, right: slope }
+    }
+
+    /// Lemma 5.2.1 (2) with its ends the right way round.
+    pub fn gradient(self) -> Interval {
+        Interval { low: self.left.min(self.right), high: self.left.max(self.right) }
+    }
+}
+
+/// A candidate of Definition 5.2.1, Phi: R -> R.
+pub trait Trench {
+    /// Phi(x), m^2/s^2 for x in metres.
+    fn value(&self, x: f64) -> f64;
+
+    /// The one-sided derivatives phi(x-) and phi(x+), m/s^2.
+    fn slopes(&self, x: f64) -> Slopes;
+
+    /// Where the two may differ, and where phi has corners a sampler could miss; in rising order.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Clarke's generalized gradient at x.
+    fn gradient(&self, x: f64) -> Interval {
+        self.slopes(x).gradient()
+    }
+
+    /// The element of the gradient that a controller applies: the least, so that a robot on the bottom stays there.
+    fn slope(&self, x: f64) -> f64 {
+        self.gradient(x).smallest()
+    }
+}

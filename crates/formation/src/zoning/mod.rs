@@ -1,1 +1,10 @@
-//! Zoning potentials of chapter 6.
+//! Zoning potentials of chapter 6: how far a follower keeps from its leader and from the robots ahead of it.
+//!
+//! d-vectors point from the robot to the other; a force is +Psi'(d) along the unit vector towards the other. Potentials
+//! count from 0 in the neutral zone: the thesis's constants c1/2 and c2/2 there act on nothing.
+mod barrier;
+mod potential;
+mod radii;
+
+pub use potential::{Edge, Sharpness, Zoning, ZoningError};
+pub use radii::{Radii, RadiiError, Zone};

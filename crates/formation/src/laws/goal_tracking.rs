@@ -1,0 +1,49 @@
+//! Laws (5.1), (5.2) and (5.3): a double integrator in a trench around its goal point.
+use super::GoalMotion;
+use crate::Vector2;
+use crate::kinematics::PointState;
+use crate::trench::{Damping, Trench};
+
+/// u = r_g'' + k(d) d' + Phi'(d) d_hat, d from the robot to the goal point.
+///
+/// (5.1) is the law with [`ConstantDamping`](crate::trench::ConstantDamping), (5.2) with K' = k(d), (5.3) is (5.1) for a
+/// goal point at rest. With V = |d'|^2/2 + Phi(d), V' = -k |d'|^2 (A.5, A.10): every admissible trench will do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GoalTracking<T, D> {
+    /// Phi.
+    pub trench: T,
+    /// k, or K' of (5.2).
+    pub damping: D,
+}
+
+/// What a law for double integrators says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steered {
+    /// u, m/s^2, frame `map`.
+    pub acceleration: Vector2<f64>,
+    /// The Lyapunov function of the law, m^2/s^2.
+    pub lyapunov: f64,
+    /// Its derivative while what the robot follows moves as the law assumes.
+    pub lyapunov_rate: f64,
+}
+
+impl<T: Trench, D: Damping> GoalTracking<T, D> {
+    /// The acceleration of a robot that tracks `goal`.
+    pub fn steer(&self, robot: PointState, goal: GoalMotion) -> Steered {
+        let offset = goal.position - robot.position;
+        let closing = goal.velocity - robot.velocity;
+        let distance = libm::hypot(offset.x, offset.y);
+        let damping = self.damping.coefficient(distance);
+        Steered {
+            acceleration: goal.acceleration + damping * closing + pull(&self.trench, offset),
+            lyapunov: 0.5 * closing.norm_squared() + self.trench.value(distance),
+            lyapunov_rate: -damping * closing.norm_squared(),
+        }
+    }
+}
+
+/// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
+pub(super) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
+    let distance = libm::hypot(offset.x, offset.y);
+    if distance == 0.0 { Vector2::zeros() } else { offset * (trench.slope(distance) / distance) }
+}

@@ -1,0 +1,20 @@
+//! Corollary A.9.1 as a constructor: damping in, potential out.
+use super::{Damping, Slopes, Trench};
+
+/// Phi = K^2/8 and phi = K k/4: with the damping k the equation (11) returns to 0 at the edge of overshooting, if k > 0
+/// except at 0 and the integral of 1/K diverges at 0 (it does whenever k is bounded there).
+///
+/// A trench of beta^2 in the place of alpha^2 overshoots for beta > alpha (the thesis says the opposite).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CriticallyDamped<D>(pub D);
+
+impl<D: Damping> Trench for CriticallyDamped<D> {
+    fn value(&self, x: f64) -> f64 {
+        let integral = self.0.integral(x);
+        0.125 * integral * integral
+    }
+
+    fn slopes(&self, x: f64) -> Slopes {
+        Slopes::smooth(0.25 * self.0.integral(x) * self.0.coefficient(x))
+    }
+}

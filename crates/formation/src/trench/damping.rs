@@ -1,0 +1,61 @@
+//! Damping functions k(x) of Lienard's equation (11), x'' + k(x) x' + phi(x) = 0.
+
+/// k and its integral from 0.
+pub trait Damping {
+    /// k(x), 1/s, not negative.
+    fn coefficient(&self, x: f64) -> f64;
+
+    /// K(x), the integral of k from 0 to x, m/s; odd for even k.
+    fn integral(&self, x: f64) -> f64;
+}
+
+/// k = C, Example A.9.1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConstantDamping {
+    /// C, 1/s.
+    pub coefficient: f64,
+}
+
+impl Damping for ConstantDamping {
+    fn coefficient(&self, _: f64) -> f64 {
+        self.coefficient
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        self.coefficient * x
+    }
+}
+
+/// k = alpha |x| / sqrt(x^2 + a^2), Example A.9.2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HyperbolicDamping {
+    /// 1/s.
+    pub alpha: f64,
+    /// Metres, positive.
+    pub a: f64,
+}
+
+impl Damping for HyperbolicDamping {
+    fn coefficient(&self, x: f64) -> f64 {
+        self.alpha * x.abs() / libm::hypot(x, self.a)
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        self.alpha * x * x.abs() / (libm::hypot(x, self.a) + self.a)
+    }
+}
+
+/// [`HyperbolicDamping`] that stays at its value at |x| = 1 beyond, Example A.9.3; odd, unlike the printed K.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SaturatedDamping(pub HyperbolicDamping);
+
+impl Damping for SaturatedDamping {
+    fn coefficient(&self, x: f64) -> f64 {
+        self.0.coefficient(x.clamp(-1.0, 1.0))
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        let inner = x.clamp(-1.0, 1.0);
+        self.0.integral(inner) + self.0.coefficient(1.0) * (x - inner)
+    }
+}

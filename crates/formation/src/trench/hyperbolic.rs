@@ -1,0 +1,22 @@
+//! Example 5.2.2, the trench of [29] and of the simulations of 5.6, 6.5 and 7.10.
+use super::{Slopes, Trench};
+
+/// Phi = alpha (sqrt(x^2 + a^2) - a): a spring alpha/a near the bottom, a pull of at most alpha far away.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hyperbolic {
+    /// m/s^2.
+    pub alpha: f64,
+    /// Metres, positive ([`Conic`](super::Conic) is the case 0).
+    pub a: f64,
+}
+
+impl Trench for Hyperbolic {
+    fn value(&self, x: f64) -> f64 {
+        // sqrt(x^2 + a^2) - a without the cancellation near 0.
+        self.alpha * x * x / (libm::hypot(x, self.a) + self.a)
+    }
+
+    fn slopes(&self, x: f64) -> Slopes {
+        Slopes::smooth(self.alpha * x / libm::hypot(x, self.a))
+    }
+}

@@ -1,0 +1,198 @@
+//! Chapter 6: the simulation of 6.5 and the energy argument of A.12.
+use nalgebra::SVector;
+use proptest::prelude::*;
+use trench_formation::Vector2;
+use trench_formation::kinematics::PointState;
+use trench_formation::laws::{Attraction, GoalMotion, GoalTracking, ZonedAttraction};
+use trench_formation::stability::rk4;
+use trench_formation::trench::{ConstantDamping, Hyperbolic};
+use trench_formation::zoning::{Edge, Radii, Sharpness, Zone, Zoning};
+
+/// Table 6.1, in the printed order.
+const STARTS: [[f64; 4]; 10] = [
+    [26.0026, 29.7094, 0.0153, 0.0056],
+    [27.8260, 19.8633, 0.7468, 0.4189],
+    [25.4281, 16.7758, 0.4451, -0.1422],
+    [14.8357, 21.3381, 0.9318, -0.3908],
+    [14.2419, 15.1141, 0.4660, -0.6207],
+    [13.7641, 8.8730, 0.4186, -0.6131],
+    [12.3089, 4.2053, 0.8462, 0.3644],
+    [9.7197, 1.0574, 0.5252, -0.3945],
+    [1.5191, 3.0657, 0.2026, 0.0833],
+    [0.7206, -1.0582, 0.6721, -0.6983],
+];
+const TRENCH: Hyperbolic = Hyperbolic { alpha: 10.0, a: 1.0 };
+const DIAGONAL: Vector2<f64> = Vector2::new(std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2);
+const ACROSS: Vector2<f64> = Vector2::new(-std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2);
+
+fn table_6_2() -> Zoning {
+    let radii = Radii::new(1.0, 4.0, 10.0, 13.0, 30.0).unwrap();
+    Zoning::new(radii, (10.0, 10.0), Sharpness::Two, Edge::Jump, 1e4).unwrap()
+}
+
+fn table_6_3() -> Zoning {
+    let radii = Radii::new(1.5, 4.5, 9.0, 12.0, 30.0).unwrap();
+    Zoning::new(radii, (10.0, 10.0), Sharpness::Two, Edge::Jump, 1e4).unwrap()
+}
+
+struct Run {
+    robots: Vec<PointState>,
+    closest: f64,
+    last_outside_neutral: f64,
+}
+
+impl Run {
+    fn leader_distances(&self) -> Vec<f64> {
+        self.robots.windows(2).map(|pair| (pair[0].position - pair[1].position).norm()).collect()
+    }
+}
+
+/// Positions and velocities of the ten robots, four numbers each.
+type Team = SVector<f64, 40>;
+
+fn robot(team: &Team, index: usize) -> PointState {
+    let [x, y, vx, vy] = [0, 1, 2, 3].map(|part| team[4 * index + part]);
+    PointState { position: Vector2::new(x, y), velocity: Vector2::new(vx, vy) }
+}
+
+/// 300 s of 6.5: the segment y = x, directions of attraction across it, the chain leader drawn to (70, 70) by (5.1).
+fn simulate(zoning: Zoning, damping: f64, method: Method) -> Run {
+    let follower = ZonedAttraction { trench: TRENCH, zoning, damping, leader_damping: 0.0, compensates: true };
+    let leader = GoalTracking { trench: TRENCH, damping: ConstantDamping { coefficient: damping } };
+    let goal = GoalMotion::at_rest(Vector2::new(70.0, 70.0));
+    let rate = |_: f64, team: &Team| {
+        let mut rate = Team::zeros();
+        let mut ahead: Vec<Vector2<f64>> = Vec::new();
+        for index in 0..10 {
+            let state = robot(team, index);
+            let acceleration = if index == 0 {
+                leader.steer(state, goal).acceleration
+            } else {
+                let attraction = Attraction::on_line(state, ACROSS, Vector2::zeros(), DIAGONAL).unwrap();
+                follower.steer(state, attraction, robot(team, index - 1), &ahead[..index - 1]).acceleration
+            };
+            ahead.push(state.position);
+            for (part, value) in [state.velocity.x, state.velocity.y, acceleration.x, acceleration.y].iter().enumerate()
+            {
+                rate[4 * index + part] = *value;
+            }
+        }
+        rate
+    };
+    let mut team = Team::from_fn(|row, _| STARTS[row / 4][row % 4]);
+    let (mut closest, mut last_outside_neutral) = (f64::INFINITY, 0.0);
+    for tick in 0..30_000 {
+        team = match method {
+            Method::RungeKutta => rk4(0.0, team, 0.01, rate),
+            Method::SemiImplicitEuler => semi_implicit(team, rate(0.0, &team), 0.01),
+        };
+        let robots: Vec<PointState> = (0..10).map(|index| robot(&team, index)).collect();
+        for (index, robot) in robots.iter().enumerate() {
+            for other in &robots[..index] {
+                closest = closest.min((robot.position - other.position).norm());
+            }
+        }
+        let neutral = |pair: &[PointState]| zoning.zone((pair[0].position - pair[1].position).norm()) == Zone::Neutral;
+        if !robots.windows(2).all(neutral) {
+            last_outside_neutral = 0.01 * f64::from(tick + 1);
+        }
+    }
+    Run { robots: (0..10).map(|index| robot(&team, index)).collect(), closest, last_outside_neutral }
+}
+
+fn semi_implicit(team: Team, rate: Team, step: f64) -> Team {
+    let mut next = team;
+    for index in 0..10 {
+        let acceleration = Vector2::new(rate[4 * index + 2], rate[4 * index + 3]);
+        let state = robot(&team, index).advanced_semi_implicit(acceleration, step);
+        next.fixed_rows_mut::<2>(4 * index).copy_from(&state.position);
+        next.fixed_rows_mut::<2>(4 * index + 2).copy_from(&state.velocity);
+    }
+    next
+}
+
+#[derive(Clone, Copy)]
+enum Method {
+    RungeKutta,
+    SemiImplicitEuler,
+}
+
+#[test]
+fn simulation_of_6_5() {
+    let run = simulate(table_6_2(), 2.0, Method::RungeKutta);
+    let expected = [8.7725, 9.8873, 9.8957, 9.8966, 9.8969, 9.8971, 9.8973, 9.8974, 9.8974];
+    for (rank, (got, wanted)) in run.leader_distances().iter().zip(expected).enumerate() {
+        assert!((got - wanted).abs() < 1e-3, "r{}: {got}, not {wanted}", rank + 2);
+    }
+    assert!(run.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
+    assert!((run.robots[0].position - Vector2::new(70.0, 70.0)).norm() < 1e-6);
+    assert!((run.closest - 3.534).abs() < 1e-3, "{}", run.closest);
+}
+
+/// Semi-implicit Euler at the thesis's 10 ms is only near: r2, which coasts into its place, ends 0.029 farther behind (0.003
+/// at 1 ms).
+#[test]
+fn sampling_shows_in_6_5() {
+    let run = simulate(table_6_2(), 2.0, Method::SemiImplicitEuler);
+    assert!((run.leader_distances()[0] - 8.8014).abs() < 1e-3, "{:?}", run.leader_distances());
+}
+
+#[test]
+fn simulation_of_6_5_with_more_damping() {
+    let run = simulate(table_6_2(), 5.0, Method::RungeKutta);
+    assert!(
+        run.leader_distances().iter().all(|distance| (distance - 9.985).abs() < 2e-3),
+        "{:?}",
+        run.leader_distances()
+    );
+    assert!((run.last_outside_neutral - 79.3).abs() < 0.1, "{}", run.last_outside_neutral);
+}
+
+#[test]
+fn modified_radii_of_table_6_3() {
+    let run = simulate(table_6_3(), 2.0, Method::RungeKutta);
+    assert!(
+        run.leader_distances().iter().all(|distance| (4.5..=9.0).contains(distance)),
+        "{:?}",
+        run.leader_distances()
+    );
+    assert!(run.closest > 1.5);
+    assert!(run.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// A.12: V' = -k |r'|^2 with delta, oblique directions included; without delta the point of attraction does work.
+    #[test]
+    fn lyapunov_function_of_a_12(
+        x in 8.0..12.0_f64, y in -3.0..3.0_f64, vx in -1.0..1.0_f64, vy in -1.0..1.0_f64, angle in 0.5..2.6_f64,
+        compensates: bool, edge: bool,
+    ) {
+        prop_assume!(vx.hypot(vy) > 0.05 && y.abs() > 0.05);
+        let edge = if edge { Edge::Continuous } else { Edge::Jump };
+        let zoning = Zoning::new(*table_6_2().radii(), (10.0, 4.0), Sharpness::One, edge, 50.0).unwrap();
+        let law = ZonedAttraction { trench: TRENCH, zoning, damping: 1.5, leader_damping: 0.3, compensates };
+        let direction = Vector2::new(libm::cos(angle), libm::sin(angle));
+        let (leader, ahead) = (PointState::at_rest(Vector2::new(-1.0, 0.5)), [Vector2::new(9.0, -4.5)]);
+        let steer = |robot: PointState| {
+            let attraction = Attraction::on_line(robot, direction, Vector2::zeros(), Vector2::new(1.0, 0.0)).unwrap();
+            law.steer(robot, attraction, leader, &ahead)
+        };
+        let start = PointState { position: Vector2::new(x, y), velocity: Vector2::new(vx, vy) };
+        for other in [leader.position, ahead[0]] {
+            let distance = (other - start.position).norm();
+            prop_assume!(zoning.radii().rho_hat - distance < -1e-3 || zoning.radii().rho_hat - distance > 1e-3);
+            prop_assume!((zoning.radii().rho - distance).abs() > 1e-3);
+        }
+        let now = steer(start);
+        let step = 1e-5;
+        let (after, before) = (steer(start.advanced(now.acceleration, step)), steer(start.advanced(now.acceleration, -step)));
+        let slope = (after.lyapunov - before.lyapunov) / (2.0 * step);
+        prop_assert!((slope - now.lyapunov_rate).abs() < 1e-4 * (1.0 + slope.abs()), "{slope} {}", now.lyapunov_rate);
+        if compensates {
+            let expected = -1.5 * start.velocity.norm_squared() - 0.3 * start.velocity.norm_squared();
+            prop_assert!((now.lyapunov_rate - expected).abs() < 1e-9 * (1.0 + now.lyapunov));
+        }
+    }
+}
