@@ -14,6 +14,7 @@ mod hash;
 mod library;
 mod literal;
 mod parse;
+mod ros2msg;
 
 pub use definition::Definition;
 pub use error::Error;

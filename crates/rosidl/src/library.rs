@@ -1,6 +1,6 @@
 //! Definitions that refer to each other.
 
-use crate::definition::{Base, Definition, Field, Service, Shape, package_of, short_name_of};
+use crate::definition::{Base, Definition, Field, Service, Shape};
 use crate::{Error, hash};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -144,23 +144,5 @@ impl Library {
             ],
         ))?;
         library.hash(&service.name)
-    }
-
-    /// The definition as bags carry it (`ros2msg`): the text, then each dependency behind a line of 80 `=` and a line
-    /// `MSG: package/Type`.
-    ///
-    /// # Errors
-    /// When something it contains is missing.
-    pub fn ros2msg(&self, name: &str) -> Result<String, Error> {
-        let closure = self.closure(name)?;
-        let Some((root, dependencies)) = closure.split_last() else {
-            return Err(Error::Name(name.to_owned()));
-        };
-        let mut text = root.text.trim_end().to_owned() + "\n";
-        for dependency in dependencies {
-            let (package, short) = (package_of(&dependency.name), short_name_of(&dependency.name));
-            text += &format!("{}\nMSG: {package}/{short}\n{}\n", "=".repeat(80), dependency.text.trim_end());
-        }
-        Ok(text)
     }
 }

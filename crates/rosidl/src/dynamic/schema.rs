@@ -1,12 +1,10 @@
 //! A `ros2msg` text made ready for decoding.
 
 use crate::definition::{Base, Definition, Primitive, Shape};
-use crate::{Error, Library, parse_message};
+use crate::ros2msg::full_name;
+use crate::{Error, Library};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// The line between definitions has at least so many `=`.
-const SEPARATOR: usize = 80;
 
 /// A type with all that it contains.
 #[derive(Debug, Clone)]
@@ -48,52 +46,14 @@ impl Schema {
     /// # Errors
     /// When the text is not such a definition, a dependency is missing, or a `wstring` is in it.
     pub fn parse(name: &str, ros2msg: &str) -> Result<Self, Error> {
-        let name = full_name(name)?;
-        let mut library = Library::default();
-        for (part, text) in split(&name, ros2msg)? {
-            // Some recorders repeat dependencies.
-            if library.get(&part).is_none() {
-                library.add_message(parse_message(&part, &text)?)?;
-            }
-        }
+        let library = Library::from_ros2msg(name, ros2msg)?;
         let mut structures: Vec<Structure> = Vec::new();
         let mut indices = BTreeMap::new();
-        for definition in library.closure(&name)? {
+        for definition in library.closure(&full_name(name)?)? {
             structures.push(structure(definition, &structures, &indices)?);
             indices.insert(definition.name.as_str(), structures.len() - 1);
         }
         Ok(Self { structures })
-    }
-}
-
-/// The name and text of each part.
-fn split(root: &str, ros2msg: &str) -> Result<Vec<(String, String)>, Error> {
-    let mut parts = vec![(root.to_owned(), String::new())];
-    let mut lines = ros2msg.lines().enumerate();
-    while let Some((_, line)) = lines.next() {
-        if line.len() >= SEPARATOR && line.trim_end().bytes().all(|byte| byte == b'=') {
-            let (index, line) = lines.next().unwrap_or_default();
-            let problem = || Error::Syntax {
-                name: root.to_owned(),
-                line: index + 1,
-                problem: format!("`MSG: package/Type` is expected behind a line of `=`, not `{line}`"),
-            };
-            let name = line.strip_prefix("MSG:").ok_or_else(problem)?;
-            parts.push((full_name(name.trim())?, String::new()));
-        } else if let Some((_, text)) = parts.last_mut() {
-            text.push_str(line);
-            text.push('\n');
-        }
-    }
-    Ok(parts)
-}
-
-/// `package/msg/Name` of `package/Name` or itself.
-fn full_name(name: &str) -> Result<String, Error> {
-    match name.split('/').collect::<Vec<_>>()[..] {
-        [package, short] => Ok(format!("{package}/msg/{short}")),
-        [_, _, _] => Ok(name.to_owned()),
-        _ => Err(Error::Name(name.to_owned())),
     }
 }
 

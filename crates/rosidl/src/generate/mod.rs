@@ -56,21 +56,17 @@ pub fn generate(library: &Library, settings: &Settings) -> Result<String, Error>
 
 /// The lists of everything generated, ordered by name.
 fn registry(context: &Context) -> String {
-    let list = |items: &mut dyn Iterator<Item = String>| items.collect::<Vec<_>>().join(",\n    ");
-    let types = list(
-        &mut context
-            .library
-            .definitions()
-            .map(|definition| format!("<{} as crate::Message>::TYPE", rust_type::path(context, &definition.name))),
-    );
-    let services = list(
-        &mut context
-            .library
-            .services()
-            .map(|service| format!("crate::service_info::<{}>()", rust_type::path(context, &service.name))),
-    );
+    let messages: Vec<String> =
+        context.library.definitions().map(|definition| rust_type::path(context, &definition.name)).collect();
+    let services = context.library.services().map(|service| rust_type::path(context, &service.name));
+    let types: String = messages.iter().map(|path| format!("    <{path} as crate::Message>::TYPE,\n")).collect();
+    let services: String = services.map(|path| format!("    crate::service_info::<{path}>(),\n")).collect();
+    let calls: String = messages.iter().map(|path| format!("        $function::<${path}>();\n")).collect();
     format!(
-        "static TYPES: &[&crate::TypeInfo] = &[\n    {types},\n];\n\
-         static SERVICES: &[crate::ServiceInfo] = &[\n    {services},\n];\n"
+        "static TYPES: &[&crate::TypeInfo] = &[\n{types}];\n\n\
+         static SERVICES: &[crate::ServiceInfo] = &[\n{services}];\n\n\
+         /// Calls a function `fn function<M: Message>()` for every message type, halves of services included.\n\
+         #[macro_export]\n\
+         macro_rules! for_every_message {{\n    ($function:ident) => {{\n{calls}    }};\n}}\n"
     )
 }
