@@ -1,16 +1,22 @@
 //! The subcommands.
 
+mod launch;
+
 use clap::Parser;
 use std::process::ExitCode;
 
 /// Makes teams of small robots take up and hold formations.
 #[derive(Parser)]
 #[command(name = "trench", version)]
-pub enum Command {}
+pub enum Command {
+    Launch(launch::Arguments),
+}
 
 impl Command {
     /// Runs the subcommand.
     pub fn run(self) -> ExitCode {
-        match self {}
+        match self {
+            Self::Launch(arguments) => launch::run(&arguments),
+        }
     }
 }

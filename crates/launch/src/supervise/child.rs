@@ -1,0 +1,110 @@
+//! One running process and its process group.
+
+use super::Event;
+use super::output::{Console, Screen};
+use crate::plan::{Output, Process};
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, getpid, getppid, kill_process_group};
+use std::io;
+use std::os::unix::process::CommandExt;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::mpsc::Sender;
+
+/// A started process, the leader of its own group.
+#[derive(Debug)]
+pub(super) struct Running {
+    child: Child,
+    pid: Pid,
+}
+
+impl Running {
+    /// Starts `process`, the `member`-th of the run.
+    pub(super) fn start(
+        process: &Process,
+        member: usize,
+        console: &Console,
+        events: &Sender<Event>,
+        alive: &Sender<()>,
+    ) -> io::Result<Self> {
+        let mut command = command(process);
+        die_with_parent(&mut command);
+        let mut child = command.spawn()?;
+        let watched = forward_output(process, &mut child, console, alive).and_then(|()| {
+            let (pid, label, events) = (Pid::from_child(&child), &process.label, events.clone());
+            std::thread::Builder::new().name(format!("wait {label}")).spawn(move || tell_end(pid, member, &events))
+        });
+        let running = Self { pid: Pid::from_child(&child), child };
+        if let Err(error) = watched {
+            // It runs, but nobody would notice its end.
+            running.signal(Signal::KILL);
+            running.reap()?;
+            return Err(error);
+        }
+        Ok(running)
+    }
+
+    pub(super) fn pid(&self) -> Pid {
+        self.pid
+    }
+
+    /// Signals the whole group. Nothing happens where it has ended.
+    pub(super) fn signal(&self, signal: Signal) {
+        let _ = kill_process_group(self.pid, signal);
+    }
+
+    /// Takes the exit status of the ended process; what it left in its group is told to end.
+    pub(super) fn reap(mut self) -> io::Result<ExitStatus> {
+        self.signal(Signal::TERM);
+        self.child.wait()
+    }
+}
+
+fn forward_output(process: &Process, child: &mut Child, console: &Console, alive: &Sender<()>) -> io::Result<()> {
+    let log = console.log_of(&process.label);
+    let screen = if process.output == Output::Screen { Screen::Out } else { Screen::None };
+    if let Some(stream) = child.stdout.take() {
+        console.forward(stream, &process.label, screen, log.clone(), alive.clone())?;
+    }
+    if let Some(stream) = child.stderr.take() {
+        console.forward(stream, &process.label, Screen::Error, log, alive.clone())?;
+    }
+    Ok(())
+}
+
+/// Waits until `pid` ends, without reaping it: until the loop reaps it, its id cannot become another process's.
+fn tell_end(pid: Pid, member: usize, events: &Sender<Event>) {
+    let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
+    while matches!(rustix::process::waitid(WaitId::Pid(pid), options), Err(rustix::io::Errno::INTR)) {}
+    // The loop may be gone already when the launcher itself ends.
+    let _ = events.send(Event::Ended { member });
+}
+
+fn command(process: &Process) -> Command {
+    let mut command = Command::new(&process.argv[0]);
+    command.args(&process.argv[1..]).process_group(0);
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    for (name, value) in &process.environment {
+        match value {
+            Some(value) => command.env(name, value),
+            None => command.env_remove(name),
+        };
+    }
+    if let Some(folder) = &process.folder {
+        command.current_dir(folder);
+    }
+    command
+}
+
+/// Has the process told to end (SIGINT) when the launcher dies, however it dies: robots must not drive on unwatched.
+fn die_with_parent(command: &mut Command) {
+    let launcher = getpid();
+    let before_exec = move || {
+        rustix::process::set_parent_process_death_signal(Some(Signal::INT))?;
+        // The launcher may have died before the line above took effect.
+        if getppid() == Some(launcher) { Ok(()) } else { Err(io::ErrorKind::NotConnected.into()) }
+    };
+    #[expect(unsafe_code, reason = "between fork and exec; the closure makes two system calls and allocates nothing")]
+    // SAFETY: prctl and getppid are async-signal-safe, and an ErrorKind becomes an io::Error without allocation.
+    unsafe {
+        command.pre_exec(before_exec);
+    }
+}

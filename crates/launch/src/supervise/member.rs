@@ -1,0 +1,185 @@
+//! One process of the plan through its lives.
+
+use super::child::Running;
+use super::output::Console;
+use super::{Event, Options};
+use crate::plan::Process;
+use rustix::process::Signal;
+use std::os::unix::process::ExitStatusExt;
+use std::process::ExitStatus;
+use std::sync::mpsc::Sender;
+use std::time::{Duration, Instant};
+
+/// One process of the plan.
+pub(super) struct Member<'a> {
+    index: usize,
+    process: &'a Process,
+    state: State,
+    /// How often it was started again.
+    retries: u32,
+    /// How many lives in a row were short.
+    short_lives: u32,
+    /// Whether its last life ended badly.
+    failed: bool,
+}
+
+enum State {
+    /// To be started.
+    Waiting { at: Instant },
+    /// Started and not reaped; `ending` once it was told to end.
+    Running { running: Running, since: Instant, ending: Option<Ending> },
+    /// Over for good.
+    Ended,
+}
+
+/// How far the end has got: the last signal sent, and when the next is due.
+struct Ending {
+    sent: Signal,
+    next: Option<Instant>,
+}
+
+/// What the end of a process means for the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Step {
+    /// The run goes on.
+    Continue,
+    /// It is over, with this exit code.
+    EndRun { code: u8 },
+}
+
+impl<'a> Member<'a> {
+    pub(super) fn new(index: usize, process: &'a Process, at: Instant) -> Self {
+        Self { index, process, state: State::Waiting { at }, retries: 0, short_lives: 0, failed: false }
+    }
+
+    pub(super) fn label(&self) -> &str {
+        &self.process.label
+    }
+
+    pub(super) fn ends_run(&self) -> bool {
+        self.process.ends_run
+    }
+
+    pub(super) fn has_ended(&self) -> bool {
+        matches!(self.state, State::Ended)
+    }
+
+    pub(super) fn failed(&self) -> bool {
+        self.failed
+    }
+
+    /// When [`Self::act`] has something to do.
+    pub(super) fn next_deadline(&self) -> Option<Instant> {
+        match &self.state {
+            State::Waiting { at } => Some(*at),
+            State::Running { ending, .. } => ending.as_ref().and_then(|ending| ending.next),
+            State::Ended => None,
+        }
+    }
+
+    /// Starts the process, or sends the next signal, if its time has come.
+    pub(super) fn act(&mut self, now: Instant, console: &Console, events: &Sender<Event>, alive: &Sender<()>) {
+        if self.next_deadline().is_none_or(|at| at > now) {
+            return;
+        }
+        match &mut self.state {
+            State::Waiting { .. } => match Running::start(self.process, self.index, console, events, alive) {
+                Ok(running) => {
+                    console.say("INFO", self.label(), &format!("process started with pid [{}]", running.pid()));
+                    self.state = State::Running { running, since: now, ending: None };
+                }
+                Err(error) => {
+                    console.say("ERROR", self.label(), &format!("cannot be started: {error}"));
+                    self.failed = true;
+                    self.state = State::Ended;
+                }
+            },
+            State::Running { running, ending: Some(ending), .. } => {
+                let (signal, name, next) = match ending.sent {
+                    Signal::INT => (Signal::TERM, "SIGTERM", Some(now + self.process.sigkill_timeout)),
+                    _ => (Signal::KILL, "SIGKILL", None),
+                };
+                console.say("ERROR", &self.process.label, &format!("has not ended in time, sending {name}"));
+                running.signal(signal);
+                *ending = Ending { sent: signal, next };
+            }
+            State::Running { ending: None, .. } | State::Ended => {}
+        }
+    }
+
+    /// Tells it to end, for good.
+    pub(super) fn end(&mut self, now: Instant, console: &Console) {
+        match &mut self.state {
+            State::Waiting { .. } => self.state = State::Ended,
+            State::Running { running, ending: ending @ None, .. } => {
+                console.say("INFO", &self.process.label, "sending signal 'SIGINT'");
+                running.signal(Signal::INT);
+                *ending = Some(Ending { sent: Signal::INT, next: Some(now + self.process.sigterm_timeout) });
+            }
+            State::Running { .. } | State::Ended => {}
+        }
+    }
+
+    /// Makes the next signal due at once.
+    pub(super) fn hurry(&mut self) {
+        if let State::Running { ending: Some(Ending { next: Some(next), .. }), .. } = &mut self.state {
+            *next = Instant::now();
+        }
+    }
+
+    /// Takes the exit status of the process, which has ended, and decides whether it lives again.
+    pub(super) fn reap(&mut self, console: &Console, options: &Options, run_is_ending: bool) -> Step {
+        let State::Running { running, since, ending } = std::mem::replace(&mut self.state, State::Ended) else {
+            return Step::Continue;
+        };
+        let pid = running.pid();
+        let status = match running.reap() {
+            Ok(status) => status,
+            Err(error) => {
+                console.say("ERROR", self.label(), &format!("its exit code is lost: {error}"));
+                self.failed = true;
+                return Step::Continue;
+            }
+        };
+        let ended_by_us =
+            ending.is_some_and(|ending| ending.sent == Signal::INT) && status.signal() == Some(Signal::INT.as_raw());
+        self.failed = !status.success() && !ended_by_us;
+        match self.failed {
+            true => console.say("ERROR", self.label(), &format!("process has died [pid {pid}, {status}]")),
+            false => console.say("INFO", self.label(), &format!("process has finished cleanly [pid {pid}]")),
+        }
+        if run_is_ending {
+            return Step::Continue;
+        }
+        if self.process.ends_run {
+            return Step::EndRun { code: exit_code(status) };
+        }
+        self.start_again(since.elapsed(), console, options);
+        Step::Continue
+    }
+
+    fn start_again(&mut self, life: Duration, console: &Console, options: &Options) {
+        let Some(respawn) = self.process.respawn else { return };
+        self.short_lives = if life < options.short_life { self.short_lives + 1 } else { 0 };
+        if respawn.max_retries.is_some_and(|most| self.retries >= most) {
+            console.say("ERROR", self.label(), &format!("was started again {} times: no more", self.retries));
+        } else if self.short_lives >= options.most_short_lives {
+            let text = format!(
+                "ended {} times within {} s of its start: not starting it again",
+                self.short_lives,
+                options.short_life.as_secs_f64()
+            );
+            console.say("ERROR", self.label(), &text);
+            self.failed = true;
+        } else {
+            self.retries += 1;
+            self.state = State::Waiting { at: Instant::now() + respawn.delay };
+        }
+    }
+}
+
+/// As a shell gives it: 128 + n for signal n.
+fn exit_code(status: ExitStatus) -> u8 {
+    let code = status.code().or_else(|| status.signal().map(|signal| 128 + signal)).unwrap_or(1);
+    u8::try_from(code).unwrap_or(1)
+}
