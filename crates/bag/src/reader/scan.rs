@@ -98,7 +98,9 @@ impl Scan<'_> {
             return Ok(None);
         }
         match opcode {
-            op::MESSAGE => self.loose_message(Block { offset, length: end - offset, is_chunk: false, first: 0, last: 0 }, &body),
+            op::MESSAGE => {
+                self.loose_message(Block { offset, length: end - offset, is_chunk: false, first: 0, last: 0 }, &body)
+            }
             op::DATA_END => self.data_end(offset, &body)?,
             _ => self.definition(opcode, &body),
         }
@@ -110,7 +112,11 @@ impl Scan<'_> {
         let records = match chunk::decompress(header, &compressed, self.file.memory_limit()) {
             Ok(records) => records,
             Err(bad) => {
-                self.damage.push(format!("the chunk at byte {} {}: its messages are lost", block.offset, bad.describe()));
+                self.damage.push(format!(
+                    "the chunk at byte {} {}: its messages are lost",
+                    block.offset,
+                    bad.describe()
+                ));
                 return Ok(());
             }
         };
@@ -141,9 +147,7 @@ impl Scan<'_> {
         let Some(message) = record::message(body, 0, body.len()) else { return };
         (record.first, record.last) = (message.log_time, message.log_time);
         match self.loose.last_mut() {
-            Some((block, channels))
-                if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK =>
-            {
+            Some((block, channels)) if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK => {
                 block.length += record.length;
                 block.first = block.first.min(record.first);
                 block.last = block.last.max(record.last);

@@ -225,9 +225,7 @@ impl BagWriter {
 
     fn check_open(&self) -> Result<(), BagError> {
         match self.full {
-            Some((available, needed)) => {
-                Err(BagError::DiskFull { path: self.directory.clone(), available, needed })
-            }
+            Some((available, needed)) => Err(BagError::DiskFull { path: self.directory.clone(), available, needed }),
             None => Ok(()),
         }
     }

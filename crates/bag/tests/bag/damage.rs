@@ -33,7 +33,11 @@ fn survivors(file: &Path, bytes: &[u8], written: &BTreeSet<(String, u64, u32, Ve
     }
     assert_eq!(read.len() as u64, reader.message_count(), "{what}");
     if read.len() < written.len() {
-        assert!(!reader.damage().is_empty(), "{what}: {} messages are missing without a word", written.len() - read.len());
+        assert!(
+            !reader.damage().is_empty(),
+            "{what}: {} messages are missing without a word",
+            written.len() - read.len()
+        );
     }
     read.len()
 }

@@ -5,3 +5,4 @@ mod common;
 mod damage;
 mod peers;
 mod round_trip;
+mod runs;

@@ -121,8 +121,16 @@ fn what_is_no_bag_is_refused_with_its_path() {
     check("missing", None, "No such file");
     check("text.mcap", Some(b"not a bag"), "is not an MCAP file");
     check("empty.mcap", Some(b""), "is not an MCAP file");
-    check("a/metadata.yaml", Some(b"rosbag2_bagfile_information:\n  relative_file_paths: []\n  storage_identifier: mcap\n"), "holds neither");
-    check("b/metadata.yaml", Some(b"rosbag2_bagfile_information:\n  relative_file_paths: [x.db3]\n  storage_identifier: sqlite3\n"), "sqlite3");
+    check(
+        "a/metadata.yaml",
+        Some(b"rosbag2_bagfile_information:\n  relative_file_paths: []\n  storage_identifier: mcap\n"),
+        "holds neither",
+    );
+    check(
+        "b/metadata.yaml",
+        Some(b"rosbag2_bagfile_information:\n  relative_file_paths: [x.db3]\n  storage_identifier: sqlite3\n"),
+        "sqlite3",
+    );
     check("c/metadata.yaml", Some(b"something: else\n"), "rosbag2_bagfile_information");
     check("d/metadata.yaml", Some(b"rosbag2_bagfile_information:\n  relative_file_paths: [x.mcap]\n  storage_identifier: mcap\n  compression_mode: FILE\n"), "compression_mode");
     fs::create_dir(folder.path().join("folder")).unwrap();

@@ -1,0 +1,151 @@
+//! From a bag to a run.
+
+use super::{GoalSample, Pose, Run, Track};
+use crate::{BagError, BagMessage, BagReader, Topic};
+use std::collections::BTreeMap;
+use trench_core::RosTime;
+use trench_msgs::Message;
+use trench_msgs::msg::{Assignment, Formation, Goals, RobotState, RunState, TeamState};
+use trench_msgs::nav_msgs::Odometry;
+
+impl Run {
+    /// Reads a run out of a bag. Poses are those of `/ground_truth/<robot>/odom` where the bag has them, else those
+    /// of `/team_state`; goals, formation, assignment and the beginning come from the topics of their names.
+    ///
+    /// # Errors
+    /// When the bag cannot be read. Messages that cannot are counted in [`Run::undecodable`].
+    pub fn from_bag(bag: &BagReader) -> Result<Self, BagError> {
+        let mut extract = Extract::default();
+        let roles: Vec<_> = bag.topics().iter().map(Role::of).collect();
+        for message in bag.messages() {
+            let message = message?;
+            if let Some(role) = roles.get(message.topic)
+                && extract.take(role, &message).is_none()
+            {
+                extract.run.undecodable += 1;
+            }
+        }
+        Ok(extract.finish())
+    }
+}
+
+/// What a topic is to a run.
+enum Role {
+    GroundTruth(String),
+    TeamState,
+    Goals,
+    Formation,
+    Assignment,
+    RunState,
+    Other,
+}
+
+impl Role {
+    fn of(topic: &Topic) -> Self {
+        match (topic.name.as_str(), topic.type_name.as_str()) {
+            ("/team_state", "trench_msgs/msg/TeamState") => Self::TeamState,
+            ("/goals", "trench_msgs/msg/Goals") => Self::Goals,
+            ("/formation", "trench_msgs/msg/Formation") => Self::Formation,
+            ("/assignment", "trench_msgs/msg/Assignment") => Self::Assignment,
+            ("/run_state", "trench_msgs/msg/RunState") => Self::RunState,
+            (name, "nav_msgs/msg/Odometry") => {
+                let robot = name.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
+                robot.map_or(Self::Other, |robot| Self::GroundTruth(robot.to_owned()))
+            }
+            _ => Self::Other,
+        }
+    }
+}
+
+#[derive(Default)]
+struct Extract {
+    run: Run,
+    /// By robot, with times still in ns.
+    truth: BTreeMap<String, Vec<(i64, Pose)>>,
+    estimates: BTreeMap<String, Vec<(i64, Pose)>>,
+    goals: BTreeMap<String, Vec<(i64, GoalSample)>>,
+}
+
+impl Extract {
+    /// Nothing where the message cannot be read.
+    fn take(&mut self, role: &Role, message: &BagMessage) -> Option<()> {
+        match role {
+            Role::GroundTruth(robot) => {
+                let odometry = Odometry::decode(message).ok()?;
+                let pose = pose_of(&odometry)?;
+                self.truth.entry(robot.clone()).or_default().push((RosTime::from(&odometry.header.stamp).0, pose));
+            }
+            Role::TeamState => {
+                let team = TeamState::decode(message).ok()?;
+                let stamp = RosTime::from(&team.header.stamp).0;
+                for robot in team.robots.iter().filter(|robot| is_seen(robot)) {
+                    let RobotState { x, y, theta, v, omega, .. } = *robot;
+                    let pose = Pose { time: 0.0, x, y, theta, v, omega };
+                    self.estimates.entry(robot.name.clone()).or_default().push((stamp, finite(pose)?));
+                }
+            }
+            Role::Goals => {
+                let goals = Goals::decode(message).ok()?;
+                let stamp = RosTime::from(&goals.header.stamp).0;
+                for goal in &goals.goals {
+                    let sample = GoalSample {
+                        time: 0.0,
+                        position: [goal.position.x, goal.position.y],
+                        velocity: [goal.velocity.x, goal.velocity.y],
+                        remaining: goal.remaining,
+                    };
+                    self.goals.entry(goal.robot.clone()).or_default().push((stamp, sample));
+                }
+            }
+            Role::Formation => self.run.formation = Some(Formation::decode(message).ok()?),
+            Role::Assignment => self.run.assignment = Some(Assignment::decode(message).ok()?),
+            Role::RunState => {
+                let state = RunState::decode(message).ok()?;
+                let t0 = RosTime::from(&state.t0).0;
+                // The first run of a bag is the one that is judged.
+                if state.state == RunState::RUNNING && t0 != 0 {
+                    self.run.t0.get_or_insert(t0);
+                }
+                self.run.state = Some(state);
+            }
+            Role::Other => {}
+        }
+        Some(())
+    }
+
+    fn finish(self) -> Run {
+        let Self { mut run, truth, estimates, goals } = self;
+        run.is_ground_truth = !truth.is_empty();
+        let poses = if truth.is_empty() { estimates } else { truth };
+        let first = poses.values().filter_map(|poses| poses.iter().map(|(stamp, _)| *stamp).min()).min();
+        let t0 = run.t0.or(first).unwrap_or(0);
+        let seconds = |stamp: i64| RosTime(stamp).seconds_since(RosTime(t0));
+        for (robot, poses) in poses {
+            let track = run.robots.entry(robot).or_default();
+            track.poses = poses.into_iter().map(|(stamp, pose)| Pose { time: seconds(stamp), ..pose }).collect();
+        }
+        for (robot, goals) in goals {
+            let track = run.robots.entry(robot).or_default();
+            track.goals = goals.into_iter().map(|(stamp, goal)| GoalSample { time: seconds(stamp), ..goal }).collect();
+        }
+        run.robots.values_mut().for_each(Track::sort);
+        run
+    }
+}
+
+fn is_seen(robot: &RobotState) -> bool {
+    matches!(robot.status, RobotState::STATUS_TRACKED | RobotState::STATUS_PREDICTED)
+}
+
+fn pose_of(odometry: &Odometry) -> Option<Pose> {
+    let pose = &odometry.pose.pose;
+    let q = &pose.orientation;
+    // The yaw of a quaternion; robots stand on the plane.
+    let theta = (2.0 * (q.w * q.z + q.x * q.y)).atan2(1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+    let twist = &odometry.twist.twist;
+    finite(Pose { time: 0.0, x: pose.position.x, y: pose.position.y, theta, v: twist.linear.x, omega: twist.angular.z })
+}
+
+fn finite(pose: Pose) -> Option<Pose> {
+    [pose.x, pose.y, pose.theta, pose.v, pose.omega].iter().all(|value| value.is_finite()).then_some(pose)
+}
