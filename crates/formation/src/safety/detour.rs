@@ -8,6 +8,7 @@ use super::SafetyParameters;
 use super::scene::{Constraint, Scene};
 use crate::hull::Outline;
 use crate::kinematics::wrap;
+use core::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::Vector2;
 
 /// How far ahead a blockage matters, m.
@@ -18,6 +19,8 @@ const BUFFER: f64 = 0.02;
 const RIGHT_BIAS: f64 = 0.05;
 /// Most blockages considered: the bits of the cluster's set.
 const MOST_ITEMS: usize = 128;
+/// Most clusters joined one after the other on the way to a tangent point.
+const MOST_ROUNDS: usize = 4;
 
 /// Direction to take, and what blocks the straight way.
 pub(super) struct Detour {
@@ -30,6 +33,16 @@ pub(super) struct Detour {
 struct Extent {
     angle: f64,
     point: Vector2<f64>,
+    /// The corner that it is a tangent to, and the distance kept from it.
+    corner: Vector2<f64>,
+    berth: f64,
+}
+
+/// The side on which a cluster is passed; its extent's index.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Right = 0,
+    Left = 1,
 }
 
 /// The robot's view of its surroundings.
@@ -44,23 +57,23 @@ impl View<'_> {
     /// The way round, if the straight way to the goal is blocked and there is one.
     pub(super) fn detour(&self) -> Option<Detour> {
         let first = self.first_blocker(self.goal, 0)?;
-        let (mut members, mut blocker) = (0, first);
-        let mut chosen = None;
-        for _ in 0..4 {
-            let (cluster, [right, left]) = self.cluster(members, blocker);
-            members = cluster;
-            let left_side = match chosen {
-                Some(side) => side,
-                None => self.takes_left(right, left)?,
-            };
-            chosen = Some(left_side);
-            let target = if left_side { left.point } else { right.point };
+        let (members, extents) = self.cluster(0, first);
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.way_length(&extents[side as usize], side));
+        let order = if left + RIGHT_BIAS < right { [Side::Left, Side::Right] } else { [Side::Right, Side::Left] };
+        let target = order.into_iter().find_map(|side| self.tangent(side, members, extents))?;
+        Some(Detour { direction: (target - self.centre).try_normalize(0.0)?, blocker: self.constraint(first) })
+    }
+
+    /// The tangent point on one side of a cluster and of all that blocks the way to it; `None` if that side is closed.
+    fn tangent(&self, side: Side, mut members: u128, mut extents: [Extent; 2]) -> Option<Vector2<f64>> {
+        for _ in 0..MOST_ROUNDS {
+            if extents[1].angle - extents[0].angle >= TAU || !self.is_open(side, members) {
+                return None;
+            }
+            let target = extents[side as usize].point;
             match self.first_blocker(target, members) {
-                Some(next) => blocker = next,
-                None => {
-                    let direction = (target - self.centre).try_normalize(0.0)?;
-                    return Some(Detour { direction, blocker: self.constraint(first) });
-                }
+                Some(next) => (members, extents) = self.cluster(members, next),
+                None => return Some(target),
             }
         }
         None
@@ -136,7 +149,7 @@ impl View<'_> {
             (queue[length], angles[item]) = (item, bearing(item));
             (known, length) = (known | 1 << item, length + 1);
         }
-        let start = Extent { angle: 0.0, point: self.centre };
+        let start = Extent { angle: 0.0, point: self.centre, corner: self.centre, berth: 0.0 };
         let mut extents = [Extent { angle: f64::INFINITY, ..start }, Extent { angle: f64::NEG_INFINITY, ..start }];
         let mut next = 0;
         while next < length {
@@ -168,7 +181,7 @@ impl View<'_> {
                 (libm::asin(berth / distance), (distance * distance - berth * berth).sqrt())
             } else {
                 let inside = ((berth - distance) / BUFFER).min(1.0);
-                (core::f64::consts::FRAC_PI_2 + 0.5 * inside, 0.0)
+                (FRAC_PI_2 + 0.5 * inside, 0.0)
             };
             for (extent, sign) in extents.iter_mut().zip([-1.0, 1.0]) {
                 let edge = angle + sign * half;
@@ -176,23 +189,48 @@ impl View<'_> {
                     let (sine, cosine) = libm::sincos(edge);
                     let ahead = to_goal.normalize() * length.max(BUFFER);
                     let point = Vector2::new(cosine * ahead.x - sine * ahead.y, sine * ahead.x + cosine * ahead.y);
-                    *extent = Extent { angle: edge, point: self.centre + point };
+                    *extent = Extent { angle: edge, point: self.centre + point, corner: *corner, berth };
                 }
             }
         }
     }
 
-    /// The side of the shorter way; `None` if neither is open.
-    fn takes_left(&self, right: Extent, left: Extent) -> Option<bool> {
-        let enclosed = left.angle - right.angle >= core::f64::consts::TAU;
+    /// Length of the way round the corner that makes an extent: two tangents and an arc.
+    fn way_length(&self, extent: &Extent, side: Side) -> f64 {
+        let (to_centre, to_goal) = (self.centre - extent.corner, self.goal - extent.corner);
+        let tangent = |arm: Vector2<f64>| {
+            let (distance, berth) = (arm.norm(), extent.berth);
+            let length = (distance * distance - berth * berth).max(0.0).sqrt();
+            (length, libm::atan2(length, berth))
+        };
+        let ((before, skipped), (after, skipped_after)) = (tangent(to_centre), tangent(to_goal));
+        let arc = (side.sweep(to_centre, to_goal) - skipped - skipped_after).max(0.0);
+        before + extent.berth * arc + after
+    }
+
+    /// Whether no member leaves so little space to the field's edge that the edge closes this side.
+    fn is_open(&self, side: Side, members: u128) -> bool {
         let keep = self.parameters.radius + self.parameters.margin;
-        let open = |extent: Extent| !enclosed && self.scene.field_admits(extent.point, keep);
-        let way = |extent: Extent| (extent.point - self.centre).norm() + (self.goal - extent.point).norm();
-        match (open(right), open(left)) {
-            (true, true) => Some(way(left) + RIGHT_BIAS < way(right)),
-            (true, false) => Some(false),
-            (false, true) => Some(true),
-            (false, false) => None,
-        }
+        let items = (0..self.count()).filter(|item| members & (1 << item) != 0);
+        items.flat_map(|item| self.outline(item).points.iter().map(move |corner| (item, *corner))).all(
+            |(item, corner)| {
+                let passage = self.outline(item).radius + 2.0 * keep;
+                let (to_centre, to_goal) = (self.centre - corner, self.goal - corner);
+                let way = side.sweep(to_centre, to_goal);
+                self.scene.field_edges().all(|(_, start, outward)| {
+                    (start - corner).dot(&outward) >= passage || side.sweep(to_centre, outward) > way
+                })
+            },
+        )
+    }
+}
+
+impl Side {
+    /// Angle in [0, 2 pi) through which one goes about a corner from `from` to `to`: what is passed on the right lies to
+    /// the left, so one goes counter-clockwise about it.
+    fn sweep(self, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+        let turn = libm::atan2(from.perp(&to), from.dot(&to));
+        let sweep = if self == Self::Right { turn } else { -turn };
+        if sweep < 0.0 { sweep + TAU } else { sweep }
     }
 }

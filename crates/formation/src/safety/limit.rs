@@ -20,14 +20,29 @@ pub(super) fn limit(
     let stopping_time = parameters.loop_delay() + now.v.abs().max(wish.v.abs()) / parameters.braking;
     let sweep = Sweep::of(parameters, pose, now, wish);
     let (mut speed, mut decisive) = (wish.v.abs(), None);
+    let (mut coasting, mut braking_for) = (now.v.abs(), None);
     for barrier in scene.barriers(pose.position(), parameters, stopping_time) {
         let admitted = admitted_speed(parameters, &barrier, &sweep, now, wish);
         if admitted < speed {
             (speed, decisive) = (admitted, Some(barrier.constraint));
         }
+        let admitted = admitted_speed(parameters, &barrier, &sweep, now, Twist { v: now.v, ..wish });
+        if admitted < coasting {
+            (coasting, braking_for) = (admitted, Some(barrier.constraint));
+        }
     }
-    let twist = if decisive.is_some() { Twist { v: speed.copysign(wish.v), omega: wish.omega } } else { wish };
-    (twist, decisive)
+    let v = if decisive.is_some() { speed.copysign(wish.v) } else { wish.v };
+    let omega = if braking_for.is_some() { braking_turn_rate(parameters, coasting, now, wish) } else { wish.omega };
+    let changed = v != wish.v || omega != wish.omega;
+    (Twist { v, omega }, decisive.or(braking_for).filter(|_| changed))
+}
+
+/// Turn rate nearest to the wish that leaves the wheels' deceleration to braking down to speed `target`: a wheel that
+/// speeds up for a turn does not brake.
+fn braking_turn_rate(parameters: &SafetyParameters, target: f64, now: Twist, wish: Twist) -> f64 {
+    let spare = parameters.braking * parameters.loop_delay() - (now.v.abs() - target);
+    let change = spare.max(0.0) / parameters.half_axle;
+    wish.omega.clamp(now.omega - change, now.omega + change)
 }
 
 fn admitted_speed(parameters: &SafetyParameters, barrier: &Barrier, sweep: &Sweep, now: Twist, wish: Twist) -> f64 {
@@ -62,18 +77,14 @@ struct Sweep {
 
 impl Sweep {
     fn of(parameters: &SafetyParameters, pose: Pose, now: Twist, wish: Twist) -> Self {
-        // While both wheels brake the heading goes on by |v| |omega|/a or (v^2 + l^2 omega^2)/(2 a l), whichever case
-        // of the module's text holds; the first is the larger in the first case and bounds little else.
-        let rolling = parameters.half_axle * wish.omega.abs();
-        let braking_turn = if rolling <= wish.v.abs() {
-            wish.v.abs() * wish.omega.abs() / parameters.braking
-        } else {
-            (wish.v * wish.v + rolling * rolling) / (2.0 * parameters.braking * parameters.half_axle)
-        };
         let committed = now.omega * parameters.delay;
-        let commanded = committed + wish.omega * parameters.period + braking_turn.copysign(wish.omega);
-        let low = commanded.min(committed).min(0.0);
-        let high = commanded.max(committed).max(0.0);
+        let after = |twist: Twist| {
+            let turn = twist.omega.abs() * parameters.period + braking_turn(parameters, twist);
+            committed + turn.copysign(twist.omega)
+        };
+        let (present, commanded) = (after(now), after(wish));
+        let low = commanded.min(present).min(committed).min(0.0);
+        let high = commanded.max(present).max(committed).max(0.0);
         let half = (0.5 * (high - low)).min(core::f64::consts::PI);
         let (sine, cosine) = libm::sincos(half);
         let (middle_sine, middle_cosine) = libm::sincos(pose.theta + 0.5 * (low + high));
@@ -88,6 +99,17 @@ impl Sweep {
         }
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         cosine * self.cosine + sine * self.sine
+    }
+}
+
+/// Angle by which the heading goes on while both wheels brake: |v| |omega|/a while both roll one way, else
+/// (v^2 + l^2 omega^2)/(2 a l).
+fn braking_turn(parameters: &SafetyParameters, twist: Twist) -> f64 {
+    let rolling = parameters.half_axle * twist.omega.abs();
+    if rolling <= twist.v.abs() {
+        twist.v.abs() * twist.omega.abs() / parameters.braking
+    } else {
+        (twist.v * twist.v + rolling * rolling) / (2.0 * parameters.braking * parameters.half_axle)
     }
 }
 

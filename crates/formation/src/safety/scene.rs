@@ -102,16 +102,11 @@ impl Scene<'_> {
     }
 
     /// Index, a corner, and the outward normal of each edge of the field.
-    fn field_edges(&self) -> impl Iterator<Item = (usize, Vector2<f64>, Vector2<f64>)> + '_ {
+    pub(super) fn field_edges(&self) -> impl Iterator<Item = (usize, Vector2<f64>, Vector2<f64>)> + '_ {
         self.field.iter().enumerate().map(|(index, corner)| {
             let edge = self.field[(index + 1) % self.field.len()] - corner;
             (index, *corner, Vector2::new(edge.y, -edge.x) / edge.norm())
         })
-    }
-
-    /// Whether a robot's centre may be at `point` as far as the field is concerned.
-    pub(super) fn field_admits(&self, point: Vector2<f64>, keep: f64) -> bool {
-        self.field_edges().all(|(_, corner, outward)| (corner - point).dot(&outward) >= keep)
     }
 }
 
