@@ -6,6 +6,7 @@ use crate::signals::Signals;
 use crate::timer::Timer;
 use crate::transport::TransportError;
 use crate::transport::dds::{Participant, StatusReader};
+use crate::transport::shared_memory::Host;
 use rustdds::mio1::event::Source;
 use rustdds::mio1::{Events, Interest, Poll, Token};
 use std::io;
@@ -28,13 +29,15 @@ const LAST_WORDS: Duration = Duration::from_millis(200);
 pub(crate) struct Process {
     poll: Poll,
     timer: Timer,
-    signals: Signals,
+    /// Kept: the loop waits for it.
+    _signals: Signals,
     status: StatusReader,
     /// What each token means.
     pub(crate) wakes: Vec<Option<(usize, Wake)>>,
     pub(crate) nodes: Vec<Node>,
     /// Lives as long as the endpoints of the nodes.
     pub(crate) participant: Participant,
+    host: Host,
 }
 
 impl Process {
@@ -42,6 +45,7 @@ impl Process {
     pub(crate) fn new(domain: u16) -> Result<Self, TransportError> {
         let system = |what| move |source| TransportError::System { what, source };
         let participant = Participant::join(domain)?;
+        let host = Host::join(domain)?;
         let poll = Poll::new().map_err(system("cannot make an event loop"))?;
         let timer = Timer::new().map_err(system("cannot make a timer"))?;
         let mut signals = Signals::new().map_err(system("cannot listen to signals"))?;
@@ -49,13 +53,23 @@ impl Process {
         timer.register(poll.registry(), TIMER).map_err(system("cannot wait for a timer"))?;
         signals.register(poll.registry(), SIGNALS).map_err(system("cannot wait for signals"))?;
         status.register(poll.registry(), STATUS, Interest::READABLE).map_err(system("cannot wait for the network"))?;
-        Ok(Self { poll, timer, signals, status, wakes: vec![None; OWN_TOKENS], nodes: Vec::new(), participant })
+        Ok(Self {
+            poll,
+            timer,
+            _signals: signals,
+            status,
+            wakes: vec![None; OWN_TOKENS],
+            nodes: Vec::new(),
+            participant,
+            host,
+        })
     }
 
     /// The pieces a node is connected to.
     pub(crate) fn connections(&mut self) -> crate::node::Connections<'_> {
         crate::node::Connections {
             participant: &mut self.participant,
+            host: &self.host,
             registry: self.poll.registry(),
             wakes: &mut self.wakes,
         }
@@ -112,7 +126,7 @@ impl Process {
         let now = steady_now();
         let mut next: Option<Steady> = None;
         for node in &mut self.nodes {
-            node.tick(now);
+            node.tick(now, &self.host);
             let flush = if node.flush() { None } else { Some(now.plus_seconds(FLUSH_SECONDS)) };
             next = next.into_iter().chain(node.next_tick()).chain(flush).min();
         }

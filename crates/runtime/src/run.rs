@@ -18,6 +18,14 @@ use trench_core::{Files, NodeContext, NodeCore, NodeDescription, StartError};
 /// The highest domain whose ports exist.
 const LAST_DOMAIN: u16 = 232;
 
+/// The runtime's own parameter.
+const PUBLISH_OVER_NETWORK: &str = "publish_over_network";
+
+fn publish_over_network() -> ParameterDescriptor {
+    let text = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
+    ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], text).read_only()
+}
+
 /// Why a process ends before or while it runs.
 #[derive(Debug, thiserror::Error)]
 enum RunError {
@@ -59,7 +67,8 @@ pub fn run(description: NodeDescription) -> ExitCode {
 
 fn run_with(description: NodeDescription, command_line: impl Iterator<Item = String>) -> Result<u8, RunError> {
     let arguments = Arguments::parse(command_line)?;
-    let descriptors = (description.parameters)();
+    let mut descriptors = (description.parameters)();
+    descriptors.push(publish_over_network());
     if arguments.help {
         print!("{}", help::text(&description, &descriptors));
         return Ok(0);
@@ -72,6 +81,7 @@ fn run_with(description: NodeDescription, command_line: impl Iterator<Item = Str
     let core = build(description, &names, &checkpoint, &parameters)?;
 
     let use_sim_time = parameters.bool(params::USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
+    let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
     let name = logger_name(&full);
     let level = arguments.level_of(&name);
     let equipment = Equipment {
@@ -79,6 +89,7 @@ fn run_with(description: NodeDescription, command_line: impl Iterator<Item = Str
         logger: Logger::new(name, level, arguments.console),
         rosout: arguments.rosout,
         checkpoint,
+        publish_over_network: over_network.to_vec(),
     };
     let mut process = Process::new(domain)?;
     let node = connect(core, 0, &names, equipment, &mut process.connections())?;

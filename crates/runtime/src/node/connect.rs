@@ -1,5 +1,6 @@
 //! Opening all that a core's interface names.
 
+use super::subscription::Reading;
 use super::{Caller, Node, Ports, Publication, Subscription, Wake};
 use crate::arguments::{NameKind, Names};
 use crate::checkpoint::Checkpoint;
@@ -8,9 +9,10 @@ use crate::log::Logger;
 use crate::stream::Stream;
 use crate::transport::TransportError;
 use crate::transport::dds::{Participant, TopicName, full_name};
+use crate::transport::shared_memory::{Host, SharedWriter};
 use rustdds::mio1::{Interest, Registry, Token, event};
 use std::collections::BTreeMap;
-use trench_core::{NodeCore, Qos, Subscribe};
+use trench_core::{Advertise, Level, Local, NodeCore, Qos, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::rcl_interfaces::Log;
 use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
@@ -18,6 +20,7 @@ use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
 /// What nodes are connected to, and what wakes the loop for them.
 pub(crate) struct Connections<'a> {
     pub(crate) participant: &'a mut Participant,
+    pub(crate) host: &'a Host,
     pub(crate) registry: &'a Registry,
     /// What each token of the loop means: the node's index and what arrived there.
     pub(crate) wakes: &'a mut Vec<Option<(usize, Wake)>>,
@@ -43,6 +46,8 @@ pub(crate) struct Equipment {
     pub(crate) logger: Logger,
     pub(crate) rosout: bool,
     pub(crate) checkpoint: Checkpoint,
+    /// Topics that also go over the network although they are meant for this host; `*` means all.
+    pub(crate) publish_over_network: Vec<String>,
 }
 
 /// Connects `core`, the node number `index` of the process.
@@ -73,10 +78,7 @@ pub(crate) fn connect(
     }
     let mut publications = Vec::new();
     for advertise in &interface.publications {
-        let topic = names.resolve(&advertise.topic, NameKind::Topic);
-        let name = TopicName::message(&topic, advertise.type_info.name);
-        let network = to.participant.writer(&node, &name, advertise.qos)?;
-        publications.push(Publication::new(topic, network, advertise));
+        publications.push(publication(&node, names, advertise, &mut equipment, to)?);
     }
     let mut servers = Vec::new();
     for (service, serve) in interface.services.iter().enumerate() {
@@ -118,6 +120,54 @@ pub(crate) fn connect(
 /// Late joiners get the last lines; as many as rclcpp keeps.
 const ROSOUT: Qos = Qos { depth: 1000, ..Qos::LATCHED };
 
+fn publication(
+    node: &str,
+    names: &Names<'_>,
+    advertise: &Advertise,
+    equipment: &mut Equipment,
+    to: &mut Connections<'_>,
+) -> Result<Publication, TransportError> {
+    let topic = names.resolve(&advertise.topic, NameKind::Topic);
+    let type_name = advertise.type_info.name;
+    // Shared memory first: readers look for it as soon as they hear of the topic's network end.
+    let mut shared = |max_len| shared_writer(&topic, type_name, max_len, advertise.qos, equipment, to);
+    let (local, to_network) = match advertise.local {
+        Local::NetworkOnly => (None, true),
+        Local::SharedMemory { max_len } => (shared(max_len), true),
+        Local::SharedMemoryOnly { max_len } => {
+            let local = shared(max_len);
+            let wanted = equipment.publish_over_network.iter().any(|name| name == "*" || *name == topic);
+            // Where there is no shared memory, a slow image is better than none.
+            let to_network = wanted || local.is_none();
+            (local, to_network)
+        }
+    };
+    let name = TopicName::message(&topic, type_name);
+    let mut publication = Publication::new(topic, to.participant.writer(node, &name, advertise.qos)?);
+    if let Some(local) = local {
+        publication.share(local, to_network);
+    }
+    Ok(publication)
+}
+
+/// Opens shared memory if it can be had: without it, the network carries everything.
+fn shared_writer(
+    topic: &str,
+    type_name: &str,
+    max_len: usize,
+    qos: Qos,
+    equipment: &mut Equipment,
+    to: &Connections<'_>,
+) -> Option<SharedWriter> {
+    let writer = to.host.writer(&to.host.topic(topic, type_name), max_len, qos);
+    writer
+        .map_err(|error| {
+            let text = format!("{error}; readers of this host get it over the network");
+            equipment.logger.log(equipment.clock.now().ros, Level::Warn, &text);
+        })
+        .ok()
+}
+
 fn subscription(
     node: &str,
     index: usize,
@@ -127,8 +177,10 @@ fn subscription(
     to: &mut Connections<'_>,
 ) -> Result<Subscription, TransportError> {
     let topic = names.resolve(&subscribe.topic, NameKind::Topic);
-    let name = TopicName::message(&topic, subscribe.type_info.name);
-    let mut network = to.participant.reader(node, &name, subscribe.qos)?;
+    let network_name = TopicName::message(&topic, subscribe.type_info.name);
+    let shared_name = to.host.topic(&topic, subscribe.type_info.name);
+    let mut network = to.participant.reader(node, &network_name, subscribe.qos)?;
     to.register(index, wake, &mut network)?;
-    Ok(Subscription::new(topic, name, network, subscribe))
+    let local_token = to.token(index, wake);
+    Ok(Subscription::new(Reading { topic, network_name, shared_name, qos: subscribe.qos }, network, local_token))
 }

@@ -1,8 +1,9 @@
 //! Bringing what arrived to the core.
 
-use super::{Node, Wake};
+use super::{Node, Subscription, Wake};
 use crate::stream::Change;
 use crate::transport::dds::GraphChange;
+use crate::transport::shared_memory::Host;
 use std::io;
 use std::time::Instant;
 use trench_core::{Event, Level, RosTime, Sink, Steady};
@@ -41,7 +42,7 @@ impl Node {
     }
 
     /// What time brings: a wake-up that is due, calls that expired, streams to be opened.
-    pub(crate) fn tick(&mut self, now: Steady) {
+    pub(crate) fn tick(&mut self, now: Steady, host: &Host) {
         if self.core.next_wakeup().is_some_and(|at| at <= now) {
             self.handle(Event::Wakeup);
         }
@@ -50,6 +51,7 @@ impl Node {
                 self.handle(Event::Response { client, cdr: None });
             }
         }
+        self.open_shared_memory(now, host);
         for stream in 0..self.ports.streams.len() {
             if let Some(change) = self.ports.streams[stream].open(now, &self.ports.registry) {
                 self.stream_changed(stream, change);
@@ -61,7 +63,8 @@ impl Node {
     pub(crate) fn next_tick(&self) -> Option<Steady> {
         let expiries = self.ports.callers.iter().filter_map(|caller| caller.next_deadline());
         let retries = self.ports.streams.iter().filter_map(|stream| stream.next_retry());
-        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).min()
+        let searches = self.readers().filter_map(Subscription::next_retry);
+        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).chain(searches).min()
     }
 
     /// Follows the ROS graph.
@@ -99,7 +102,33 @@ impl Node {
         self.ports.settle(deadline);
     }
 
+    fn readers(&self) -> impl Iterator<Item = &Subscription> {
+        self.subscriptions.iter().chain(&self.clock)
+    }
+
+    /// Opens shared memory where it has appeared; what is in there already is delivered at once.
+    fn open_shared_memory(&mut self, now: Steady, host: &Host) {
+        for port in 0..self.subscriptions.len() {
+            match self.subscriptions[port].open_local(now, host, &self.ports.registry) {
+                Ok(true) => {
+                    let text = format!("{}: through shared memory", self.subscriptions[port].topic());
+                    self.ports.log(Level::Debug, &text);
+                    self.take_messages(port);
+                }
+                Ok(false) => {}
+                Err(problem) => self.ports.warn(&format!("{problem}; the network is used instead")),
+            }
+        }
+        match self.clock.as_mut().map(|clock| clock.open_local(now, host, &self.ports.registry)) {
+            Some(Ok(true)) => self.take_clock(),
+            Some(Err(problem)) => self.ports.warn(&format!("{problem}; the network is used instead")),
+            Some(Ok(false)) | None => {}
+        }
+    }
+
     fn look_at_writer(&mut self, topic: &str, type_name: &str) {
+        let readers = self.subscriptions.iter_mut().chain(&mut self.clock);
+        readers.filter(|reader| reader.network_name().topic() == topic).for_each(Subscription::look_for_writer);
         let foreign = self.subscriptions.iter().find(|subscription| {
             subscription.network_name().topic() == topic && subscription.network_name().type_name() != type_name
         });
@@ -137,6 +166,10 @@ impl Node {
             |problem| problems.push(problem),
         );
         let topic = subscription.topic().to_owned();
+        let lost = subscription.take_lost();
+        if lost > 0 {
+            self.ports.warn(&format!("{topic}: {lost} message(s) lost: they came faster than this node reads"));
+        }
         self.report(&topic, &problems);
         self.close_broken_streams();
     }

@@ -1,5 +1,6 @@
 //! Where a core's outputs go.
 
+use super::publication::PublishProblem;
 use super::{Caller, Publication};
 use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
@@ -74,14 +75,18 @@ impl Ports {
 impl Sink for Ports {
     fn publish_with(&mut self, port: usize, max_len: usize, fill: &mut dyn FnMut(&mut [u8]) -> usize) {
         let Some(publication) = self.publications.get_mut(port) else { return };
-        if !publication.publish_with(max_len, fill) && publication.refused().is_power_of_two() {
-            let text = format!(
+        let text = match publication.publish_with(max_len, fill) {
+            Ok(()) => return,
+            Err(PublishProblem::SharedMemory(problem)) => format!("{}: shared memory: {problem}", publication.topic()),
+            // Told at 1, 2, 4, ...: a reader this far behind stays so for a while.
+            Err(PublishProblem::Congested) if publication.refused().is_power_of_two() => format!(
                 "{}: {} messages not sent: a reader is more than 8192 messages behind",
                 publication.topic(),
                 publication.refused()
-            );
-            self.log(Level::Error, &text);
-        }
+            ),
+            Err(PublishProblem::Congested) => return,
+        };
+        self.log(Level::Error, &text);
     }
 
     fn respond(&mut self, service: usize, id: RequestId, response: &dyn Encode) {

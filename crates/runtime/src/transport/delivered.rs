@@ -46,9 +46,9 @@ impl Delivered {
         true
     }
 
-    /// How many counts were skipped by writers that were heard before.
-    pub(crate) fn lost(&self) -> u64 {
-        self.lost
+    /// How many counts were skipped since the last call by writers that had been heard before.
+    pub(crate) fn take_lost(&mut self) -> u64 {
+        std::mem::take(&mut self.lost)
     }
 
     fn forget_oldest(&mut self) {
@@ -77,9 +77,9 @@ mod tests {
         check(&mut delivered, 5, false);
         check(&mut delivered, 4, false);
         check(&mut delivered, 6, true);
-        assert_eq!(delivered.lost(), 0, "what was sent before the first message is not lost");
+        assert_eq!(delivered.take_lost(), 0, "what was sent before the first message is not lost");
         check(&mut delivered, 9, true);
-        assert_eq!(delivered.lost(), 2);
+        assert_eq!((delivered.take_lost(), delivered.take_lost()), (2, 0));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 pub(crate) mod dds;
 mod delivered;
 mod error;
+pub(crate) mod shared_memory;
 
 pub(crate) use delivered::Delivered;
 pub use error::TransportError;

@@ -32,11 +32,6 @@ impl NetworkWriter {
         gid(self.writer.guid())
     }
 
-    /// The count that the next accepted message will have.
-    pub(crate) fn next_sequence(&self) -> u64 {
-        self.accepted + 1
-    }
-
     /// Whether [`NetworkWriter::write`] would take a message now.
     pub(crate) fn has_room(&self) -> bool {
         self.waiting.len() < WAITING

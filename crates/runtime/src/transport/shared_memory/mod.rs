@@ -1,0 +1,16 @@
+//! Messages between processes of one host without a copy, through iceoryx2.
+//!
+//! Each topic is one service, made by its writers: a publish-subscribe part with the messages and an event part that
+//! wakes the readers. A reader opens what exists and goes on with the network where nothing does.
+
+mod header;
+mod host;
+mod limits;
+mod reader;
+mod writer;
+
+pub(crate) use host::{Host, SharedTopic};
+pub(crate) use reader::SharedReader;
+pub(crate) use writer::SharedWriter;
+
+use header::Header;

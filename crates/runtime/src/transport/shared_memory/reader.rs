@@ -1,0 +1,92 @@
+//! The shared-memory end of a subscription.
+
+use super::Header;
+use iceoryx2::port::listener::Listener;
+use iceoryx2::port::subscriber::Subscriber;
+use iceoryx2::prelude::{FileDescriptorBased, Node, PortFactory, ServiceName, ipc};
+use iceoryx2::sample::Sample;
+use iceoryx2::service::builder::event::EventOpenError;
+use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenError;
+use rustdds::mio1::unix::SourceFd;
+use rustdds::mio1::{Interest, Registry, Token};
+use trench_core::{Durability, Qos, Reliability, Source};
+
+/// Reads messages where their writer wrote them.
+pub(crate) struct SharedReader {
+    subscriber: Subscriber<ipc::Service, [u8], Header>,
+    listener: Listener<ipc::Service>,
+}
+
+/// A message in shared memory, which stays there as long as this lives.
+pub(crate) struct SharedSample(Sample<ipc::Service, [u8], Header>);
+
+impl SharedReader {
+    pub(super) fn open(
+        node: &Node<ipc::Service>,
+        name: &ServiceName,
+        qos: Qos,
+        registry: &Registry,
+        token: Token,
+    ) -> Result<Option<Self>, String> {
+        let topic = match node.service_builder(name).publish_subscribe::<[u8]>().user_header::<Header>().open() {
+            Ok(topic) => topic,
+            Err(PublishSubscribeOpenError::DoesNotExist) => return Ok(None),
+            Err(error) => return Err(format!("{error:?}")),
+        };
+        let wakeups = match node.service_builder(name).event().open() {
+            Ok(wakeups) => wakeups,
+            Err(EventOpenError::DoesNotExist) => return Ok(None),
+            Err(error) => return Err(format!("{error:?}")),
+        };
+        let history = if qos.durability == Durability::TransientLocal { qos.depth } else { 0 };
+        let limits = topic.static_config();
+        // A best-effort reader wants the newest samples alone.
+        let newest = if qos.reliability == Reliability::BestEffort { qos.depth } else { usize::MAX };
+        let subscriber = topic
+            .subscriber_builder()
+            .buffer_size(limits.subscriber_max_buffer_size().min(newest.max(history)))
+            .history_request(history.min(limits.history_size()))
+            .create()
+            .map_err(|error| format!("{error:?}"))?;
+        let listener = wakeups.listener_builder().create().map_err(|error| format!("{error:?}"))?;
+        let descriptor = descriptor(&listener);
+        registry
+            .register(&mut SourceFd(&descriptor), token, Interest::READABLE)
+            .map_err(|error| format!("cannot wait for it: {error}"))?;
+        Ok(Some(Self { subscriber, listener }))
+    }
+
+    /// Acknowledges the wake-up; to be called before taking, or a later arrival may go unnoticed.
+    pub(crate) fn clear_wakeup(&self) {
+        let _spurious = self.listener.try_wait(|_| {});
+    }
+
+    /// The next message; `None` when all are taken.
+    pub(crate) fn take(&self) -> Option<Result<SharedSample, String>> {
+        match self.subscriber.receive() {
+            Ok(sample) => sample.map(|sample| Ok(SharedSample(sample))),
+            Err(error) => Some(Err(format!("{error:?}"))),
+        }
+    }
+}
+
+impl SharedSample {
+    /// Writer and count.
+    pub(crate) fn source(&self) -> Source {
+        Source { gid: self.0.user_header().gid, sequence: self.0.user_header().sequence }
+    }
+
+    /// The message, read in place.
+    pub(crate) fn cdr(&self) -> &[u8] {
+        let payload = self.0.payload();
+        let length = usize::try_from(self.0.user_header().length).unwrap_or(usize::MAX);
+        &payload[..length.min(payload.len())]
+    }
+}
+
+fn descriptor(listener: &Listener<ipc::Service>) -> i32 {
+    #[expect(unsafe_code, reason = "the descriptor is only waited for, and never outlives the listener")]
+    unsafe {
+        listener.file_descriptor().native_handle()
+    }
+}
