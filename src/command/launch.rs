@@ -23,7 +23,7 @@ Exit codes:
 /// folder, and to the screen where the launch file says `output: screen` (standard error always).
 #[derive(Parser)]
 #[command(after_help = EXIT_CODES)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     /// The launch file, for example launch/square.launch.yaml.
     file: PathBuf,
     /// Arguments of the launch file.
@@ -57,7 +57,7 @@ enum LaunchError {
 }
 
 /// Runs the subcommand.
-pub fn run(arguments: &Arguments) -> ExitCode {
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
     match launch(arguments) {
         Ok(code) => ExitCode::from(code),
         Err(error) => {

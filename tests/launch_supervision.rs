@@ -1,0 +1,201 @@
+//! How `trench launch` starts, watches and ends real processes.
+
+use rustix::process::{Pid, Signal, kill_process, test_kill_process};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// How long anything here may take on a busy machine before the test fails.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A running `trench launch` of a file with the given actions.
+struct Run {
+    folder: TempDir,
+    launcher: Child,
+}
+
+impl Run {
+    fn start(actions: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("test.launch.yaml");
+        std::fs::write(&file, format!("launch:\n{actions}")).unwrap();
+        let launcher = Command::new(env!("CARGO_BIN_EXE_trench"))
+            .args(["launch", "test.launch.yaml", "--run-dir", "run"])
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        Self { folder, launcher }
+    }
+
+    fn log(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("run/log/launch.log")).unwrap_or_default()
+    }
+
+    /// Waits until the log holds all of `texts`.
+    fn wait_for(&self, texts: &[&str]) -> String {
+        let start = Instant::now();
+        loop {
+            let log = self.log();
+            if texts.iter().all(|text| log.contains(text)) {
+                return log;
+            }
+            assert!(start.elapsed() < PATIENCE, "{texts:?} not in:\n{log}");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    fn signal(&self, signal: Signal) {
+        kill_process(Pid::from_child(&self.launcher), signal).unwrap();
+    }
+
+    /// The launcher's exit code, output and log, once it has ended.
+    fn finish(self) -> (Option<i32>, Output, String) {
+        let output = self.launcher.wait_with_output().unwrap();
+        let log = std::fs::read_to_string(self.folder.path().join("run/log/launch.log")).unwrap_or_default();
+        (output.status.code(), output, log)
+    }
+}
+
+/// Runs to the end: exit code, output, log.
+fn run(actions: &str) -> (Option<i32>, Output, String) {
+    Run::start(actions).finish()
+}
+
+#[test]
+fn an_interrupt_ends_all_cleanly() {
+    let run = Run::start(
+        "- executable: {cmd: sleep 1000}\n- executable: {cmd: \"sh -c 'trap \\\"exit 0\\\" INT; echo ready; while :; do sleep 0.1; done'\"}\n",
+    );
+    run.wait_for(&["[sleep-1]: process started", "ready"]);
+    run.signal(Signal::INT);
+    let (code, _, log) = run.finish();
+    assert_eq!(code, Some(0), "{log}");
+    assert_eq!(log.matches("finished cleanly").count(), 2, "{log}");
+    assert!(!log.contains("SIGTERM"), "{log}");
+}
+
+#[test]
+fn what_ignores_an_interrupt_is_terminated_and_what_ignores_that_is_killed() {
+    let run = Run::start(
+        "- executable: {name: deaf, sigterm_timeout: 0.2, cmd: \"sh -c 'trap \\\"\\\" INT; echo a; sleep 1000'\"}\n\
+         - executable: {name: stubborn, sigterm_timeout: 0.2, sigkill_timeout: 0.2, cmd: \"sh -c 'trap \\\"\\\" INT TERM; echo b; sleep 1000'\"}\n",
+    );
+    run.wait_for(&["[deaf-1] a", "[stubborn-2] b"]);
+    run.signal(Signal::TERM);
+    let (code, _, log) = run.finish();
+    assert_eq!(code, Some(1), "{log}");
+    assert!(log.contains("[deaf-1]: has not ended in time, sending SIGTERM"), "{log}");
+    assert!(!log.contains("[deaf-1]: has not ended in time, sending SIGKILL"), "{log}");
+    assert!(log.contains("[stubborn-2]: has not ended in time, sending SIGKILL"), "{log}");
+    assert!(log.contains("signal: 15") && log.contains("signal: 9"), "{log}");
+}
+
+#[test]
+fn a_second_signal_does_not_wait() {
+    let run = Run::start(
+        "- executable: {name: deaf, sigterm_timeout: 1000.0, cmd: \"sh -c 'trap \\\"\\\" INT; echo a; sleep 1000'\"}\n",
+    );
+    run.wait_for(&["[deaf-1] a"]);
+    run.signal(Signal::INT);
+    run.wait_for(&["sending signal 'SIGINT'"]);
+    run.signal(Signal::INT);
+    let (code, _, log) = run.finish();
+    assert_eq!(code, Some(1), "{log}");
+}
+
+#[test]
+fn the_process_that_ends_the_run_decides_the_exit_code() {
+    for (command, expected) in [("sh -c 'exit 0'", 0), ("sh -c 'exit 7'", 7), ("sh -c 'kill -9 $$'", 137)] {
+        let (code, _, log) = run(&format!(
+            "- executable: {{cmd: sleep 1000}}\n- executable: {{on_exit: shutdown, cmd: \"{command}\"}}\n"
+        ));
+        assert_eq!(code, Some(expected), "{log}");
+        assert!(log.contains("[sleep-1]: process has finished cleanly"), "{log}");
+    }
+}
+
+#[test]
+fn an_interrupt_before_the_goal_is_no_success() {
+    let run = Run::start("- executable: {cmd: sleep 1000, on_exit: shutdown}\n");
+    run.wait_for(&["process started"]);
+    run.signal(Signal::INT);
+    assert_eq!(run.finish().0, Some(130));
+}
+
+#[test]
+fn a_failure_shows_in_the_exit_code() {
+    let (code, _, log) = run("- executable: {cmd: \"true\"}\n- executable: {cmd: \"false\"}\n");
+    assert_eq!(code, Some(1), "{log}");
+    assert!(log.contains("[ERROR] [false-2]: process has died"), "{log}");
+}
+
+#[test]
+fn a_crash_loop_is_bounded_and_reported() {
+    let (code, _, log) = run("- node: {exec: \"false\", respawn: \"true\"}\n");
+    assert_eq!(code, Some(1), "{log}");
+    assert_eq!(log.matches("process started").count(), 5, "{log}");
+    assert!(log.contains("ended 5 times within 1 s of its start: not starting it again"), "{log}");
+}
+
+#[test]
+fn a_process_is_started_again_as_often_as_asked() {
+    let (code, _, log) =
+        run("- node: {exec: \"true\", respawn: \"true\", respawn_delay: 0.01, respawn_max_retries: 2}\n");
+    assert_eq!(code, Some(0), "{log}");
+    assert_eq!(log.matches("process started").count(), 3, "{log}");
+}
+
+#[test]
+fn output_goes_where_the_file_says() {
+    let (code, output, log) = run("- executable: {name: quiet, cmd: \"sh -c 'echo one; echo two >&2'\"}\n\
+         - executable: {name: loud, output: screen, cmd: \"sh -c 'printf \\\"three\\\\\\\\nno newline\\\"'\"}\n");
+    let (stdout, stderr) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(code, Some(0), "{log}");
+    assert_eq!(stdout, "[loud-2] three\n[loud-2] no newline\n");
+    assert!(stderr.contains("[quiet-1] two\n") && !stderr.contains("[quiet-1] one"), "{stderr}");
+    assert!(log.contains("[quiet-1] one\n") && log.contains("[loud-2] no newline\n"), "{log}");
+}
+
+#[test]
+fn timers_delay_what_is_below_them() {
+    let (code, _, log) =
+        run("- timer: {period: 0.3, children: [{executable: {cmd: echo late}}]}\n- executable: {cmd: echo early}\n");
+    assert_eq!(code, Some(0), "{log}");
+    let position = |text: &str| log.find(text).unwrap();
+    assert!(position("] early") < position("[echo-1]: process started"), "{log}");
+    assert!(log.contains("[echo-1] late"), "{log}");
+}
+
+#[test]
+fn the_environment_reaches_the_processes() {
+    let (code, output, log) = run("- set_env: {name: GREETING, value: hello}\n\
+         - group:\n  - set_env: {name: GREETING, value: inner}\n\
+         - unset_env: {name: HOME}\n\
+         - executable: {output: screen, env: [{name: OWN, value: \"$(env GREETING) you\"}], cmd: \"sh -c 'echo $GREETING $OWN ${HOME-unset}'\"}\n");
+    assert_eq!(code, Some(0), "{log}");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "[sh-1] hello hello you unset\n");
+}
+
+#[test]
+fn processes_end_when_the_launcher_is_killed() {
+    let run = Run::start("- executable: {cmd: sleep 1000}\n");
+    let log = run.wait_for(&["process started with pid ["]);
+    let pid = log.split("pid [").nth(1).and_then(|rest| rest.split(']').next()).unwrap().parse().unwrap();
+    let pid = Pid::from_raw(pid).unwrap();
+    run.signal(Signal::KILL);
+    run.finish();
+    let start = Instant::now();
+    while test_kill_process(pid).is_ok() && !is_zombie(pid) {
+        assert!(start.elapsed() < PATIENCE, "process {pid} lives on");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Whether the process has ended and only waits for a parent to notice.
+fn is_zombie(pid: Pid) -> bool {
+    let status = std::fs::read_to_string(Path::new("/proc").join(pid.to_string()).join("stat"));
+    status.is_ok_and(|status| status.rsplit(") ").next().is_some_and(|rest| rest.starts_with('Z')))
+}
