@@ -176,4 +176,3 @@ fn gid(end: End) -> [u8; 16] {
     gid[8..12].copy_from_slice(&(end.index as u32).to_be_bytes());
     gid
 }
-

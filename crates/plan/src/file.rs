@@ -139,8 +139,8 @@ fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
     let open = |key| Ok::<_, ConfigError>(map.opt::<bool>(key)?.unwrap_or(false));
     let (open_start, open_end) = (open("open_start")?, open("open_end")?);
     map.finish()?;
-    let curve = Curve::new(&shape, open_start, open_end)
-        .map_err(|error| node.error(error.to_string(), "mend the segment"))?;
+    let curve =
+        Curve::new(&shape, open_start, open_end).map_err(|error| node.error(error.to_string(), "mend the segment"))?;
     Ok((shape, curve))
 }
 

@@ -9,13 +9,12 @@ use trench_core::{
     Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
+use trench_msgs::Message;
+use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
-use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, RunState, TeamState,
-};
+use trench_msgs::msg::{ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, RunState, TeamState};
 use trench_msgs::std_msgs::{Bool, Header};
-use trench_msgs::{CdrError, Message};
 
 const TEAM_STATE: usize = 0;
 const GOALS: usize = 1;
@@ -92,8 +91,9 @@ fn interface(settings: &Settings, others: &[String]) -> Interface {
         subscribe("/apparent_obstacles", ApparentObstacleArray::TYPE, Qos::RELIABLE),
         subscribe("/emergency_stop", Bool::TYPE, Qos::RELIABLE),
     ];
-    subscriptions
-        .extend(others.iter().map(|name| subscribe(&format!("/{name}/leader_state"), LeaderState::TYPE, Qos::RELIABLE)));
+    subscriptions.extend(
+        others.iter().map(|name| subscribe(&format!("/{name}/leader_state"), LeaderState::TYPE, Qos::RELIABLE)),
+    );
     let advertise = |topic: String, type_info, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
     let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
     Interface {
@@ -142,7 +142,7 @@ impl FormationController {
         self.health.value("motion", "limits", command.limits);
     }
 
-    fn send(&self, command: &Command, sink: &mut dyn Sink) {
+    fn send(&mut self, command: &Command, sink: &mut dyn Sink) {
         let mut twist = Twist::default();
         (twist.linear.x, twist.angular.z) = (command.twist.v, command.twist.omega);
         if self.tick.settings.stamped {
@@ -153,11 +153,12 @@ impl FormationController {
             sink.publish(CMD_VEL, &twist);
         }
         if command.pose.is_some() {
-            sink.publish(LEADER_STATE, &self.leader_state(command));
+            let message = self.leader_state(command);
+            sink.publish(LEADER_STATE, &message);
         }
     }
 
-    fn leader_state(&self, command: &Command) -> LeaderState {
+    fn leader_state(&mut self, command: &Command) -> LeaderState {
         let (settings, inputs) = (&self.tick.settings, &self.tick.inputs);
         let member = inputs.assignment.as_ref().and_then(|assignment| {
             let member = assignment.members.iter().find(|member| member.robot == settings.robot)?;

@@ -5,7 +5,8 @@ use trench_core::{RosTime, Steady};
 use trench_formation::Vector2;
 use trench_formation::laws::GoalMotion;
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, Point2, RobotState, RunState, TeamState,
+    ApparentObstacle, ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, Point2, RobotState,
+    RunState, TeamState,
 };
 
 /// A message and the monotonic time of its receipt: ages that stop robots are measured by it.
@@ -28,7 +29,25 @@ pub(crate) struct Inputs {
     pub(crate) emergency_stop: bool,
 }
 
+/// An apparent obstacle as the safety filter wants it.
+#[derive(Debug, Clone)]
+pub(crate) struct Hull {
+    pub(crate) points: Vec<Vector2<f64>>,
+    pub(crate) radius: f64,
+    pub(crate) velocity: Vector2<f64>,
+}
+
 impl Inputs {
+    /// The apparent obstacles heard last.
+    pub(crate) fn hulls(&self) -> Vec<Hull> {
+        let hull = |obstacle: &ApparentObstacle| Hull {
+            points: obstacle.hull.iter().map(vector).collect(),
+            radius: obstacle.radius,
+            velocity: vector(&obstacle.velocity),
+        };
+        self.obstacles.iter().flat_map(|heard| &heard.message.obstacles).map(hull).collect()
+    }
+
     /// The state of `robot` in the newest team state.
     pub(crate) fn robot(&self, robot: &str) -> Option<&RobotState> {
         self.team.as_ref()?.message.robots.iter().find(|state| state.name == robot)

@@ -2,9 +2,10 @@
 
 use crate::Law;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_formation::kinematics::Ramp;
+use trench_formation::Vector2;
+use trench_formation::kinematics::{Axle, Ramp};
 use trench_formation::laws::{DeadBand, Direct, Family, Nominal, Robust, Tracking};
-use trench_formation::safety::SafetyParameters;
+use trench_formation::safety::{SafetyFilter, SafetyParameters};
 use trench_formation::stability::StableZone;
 
 /// Everything a tick needs to know that does not change from tick to tick.
@@ -14,7 +15,7 @@ pub(crate) struct Settings {
     pub(crate) team: Vec<String>,
     pub(crate) law: Law,
     pub(crate) dead_band: DeadBand,
-    pub(crate) half_axle: f64,
+    pub(crate) axle: Axle,
     pub(crate) max_wheel_speed: f64,
     pub(crate) ramp: Ramp,
     pub(crate) command_delay: f64,
@@ -25,8 +26,9 @@ pub(crate) struct Settings {
     pub(crate) watchdog: f64,
     pub(crate) needs_mapper: bool,
     pub(crate) safety_enabled: bool,
-    pub(crate) safety: SafetyParameters,
-    pub(crate) field: Vec<[f64; 2]>,
+    pub(crate) safety: SafetyFilter,
+    pub(crate) body_radius: f64,
+    pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
 }
 
@@ -62,14 +64,21 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::double("age.obstacles", 0.5, "s, silence of the mapper after which the robot stops").range(0.001, 10.0),
         P::double("age.leader_state", 0.3, "s, silence after which another robot counts as an obstacle")
             .range(0.001, 10.0),
-        P::double("watchdog", 0.05, "s, silence of /team_state after which the last one is used again").range(0.001, 1.0),
+        P::double("watchdog", 0.05, "s, silence of /team_state after which the last one is used again")
+            .range(0.001, 1.0),
         P::bool("safety.enabled", true, "pass commands through the safety filter; false only on an ideal bed"),
         P::bool("safety.needs_mapper", true, "stop while no obstacle mapper is heard"),
-        P::double("safety.delay", 0.11, "s, T of the safety rule: exposure to wheels, one camera period included")
-            .range(0.0, 1.0),
-        P::double("safety.deceleration", 0.4, "m/s^2, a of the safety rule").range(0.01, 100.0),
+        P::double("safety.delay", 0.06, "s, from an exposure to the moment its command acts").range(0.0, 1.0),
+        P::double("safety.period", 0.04, "s, for which a command acts: the longest interval between ticks")
+            .range(0.001, 1.0),
+        P::double("safety.braking", 0.4, "m/s^2, deceleration the wheels can always hold").range(0.01, 100.0),
+        P::double("safety.detour_speed", 0.08, "m/s, least speed on a way round a blockage").range(0.001, 10.0),
         P::double("safety.margin", 0.005, "m, kept besides the rule, for errors of the vision").range(0.0, 1.0),
-        P::double_list("field", &[0.0, 0.0, 2.48, 1.83], "m, the field: x and y of its low corner, then of its high one"),
+        P::double_list(
+            "field",
+            &[0.0, 0.0, 2.48, 1.83],
+            "m, the field: x and y of its low corner, then of its high one",
+        ),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
     ]
 }
@@ -95,7 +104,7 @@ impl Settings {
             team: parameters.str_list("team")?.to_vec(),
             law: law(parameters, dead_band)?,
             dead_band,
-            half_axle: double("body.half_axle")?,
+            axle: Axle { half_track: double("body.half_axle")? },
             max_wheel_speed: double("wheels.max_speed")?,
             ramp: Ramp { pull_in_speed: double("wheels.pull_in_speed")?, acceleration: double("wheels.acceleration")? },
             command_delay: double("delay.command")?,
@@ -106,12 +115,8 @@ impl Settings {
             watchdog: double("watchdog")?,
             needs_mapper: parameters.bool("safety.needs_mapper")?,
             safety_enabled: parameters.bool("safety.enabled")?,
-            safety: SafetyParameters {
-                radius: double("body.radius")?,
-                delay: double("safety.delay")?,
-                deceleration: double("safety.deceleration")?,
-                margin: double("safety.margin")?,
-            },
+            safety: safety(parameters)?,
+            body_radius: double("body.radius")?,
             field: field(parameters)?,
             stamped: parameters.bool("stamped")?,
         })
@@ -141,12 +146,29 @@ fn law(parameters: &Parameters, dead_band: DeadBand) -> Result<Law, ConfigError>
     Ok(law)
 }
 
-fn field(parameters: &Parameters) -> Result<Vec<[f64; 2]>, ConfigError> {
+fn safety(parameters: &Parameters) -> Result<SafetyFilter, ConfigError> {
+    let double = |name: &str| parameters.f64(name);
+    let filter = SafetyFilter::new(SafetyParameters {
+        radius: double("body.radius")?,
+        half_axle: double("body.half_axle")?,
+        delay: double("safety.delay")?,
+        period: double("safety.period")?,
+        braking: double("safety.braking")?,
+        margin: double("safety.margin")?,
+        detour_speed: double("safety.detour_speed")?,
+    });
+    filter.map_err(|error| {
+        parameters.error(&format!("safety.{}", error.name), error.to_string(), format!("make it {}", error.expected))
+    })
+}
+
+fn field(parameters: &Parameters) -> Result<Vec<Vector2<f64>>, ConfigError> {
     let [low_x, low_y, high_x, high_y] = parameters.f64_array("field")?;
     if high_x <= low_x || high_y <= low_y {
         return Err(parameters.error("field", "has no area", "write the low corner first: [0.0, 0.0, 2.48, 1.83]"));
     }
-    Ok(vec![[low_x, low_y], [high_x, low_y], [high_x, high_y], [low_x, high_y]])
+    let corner = Vector2::new;
+    Ok(vec![corner(low_x, low_y), corner(high_x, low_y), corner(high_x, high_y), corner(low_x, high_y)])
 }
 
 /// Whether the gains lie in the stable zone of 4.3.1 (for (3.9), (3.10) and (4.4): K2 > 0); else the refusal.

@@ -4,8 +4,8 @@ use crate::settings::{Settings, descriptors};
 use crate::{Conduct, Step, Verdict, distances, shape_error};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Qos, RosTime, Serve, Sink, StartError,
-    Steady, Subscribe, Times,
+    Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Qos, Serve, Sink, StartError, Steady,
+    Subscribe, Times,
 };
 use trench_msgs::msg::{Goals, RunState, TeamState};
 use trench_msgs::std_srvs::{Trigger, TriggerRequest, TriggerResponse};
@@ -46,11 +46,7 @@ pub fn description() -> NodeDescription {
     }
 }
 
-fn build(
-    _context: &NodeContext,
-    parameters: &Parameters,
-    _files: &dyn Files,
-) -> Result<Box<dyn NodeCore>, StartError> {
+fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let settings = Settings::read(parameters)?;
     let Settings { duration, tolerance, start_timeout, robots, assignment_node } = settings;
     Ok(Box::new(Operator {
@@ -162,6 +158,7 @@ impl NodeCore for Operator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trench_core::RosTime;
 
     #[test]
     fn a_line_of_progress() {

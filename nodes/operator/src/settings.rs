@@ -20,7 +20,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::double("start_timeout", 30.0, "s, give up when the run has not started by then")
             .range(0.0, 3600.0),
         ParameterDescriptor::string_list("robots", &[], "names of the robots that take part"),
-        ParameterDescriptor::string("assignment_node", "/leader_assignment", "node whose arm, start and stop are called"),
+        ParameterDescriptor::string(
+            "assignment_node",
+            "/leader_assignment",
+            "node whose arm, start and stop are called",
+        ),
     ]
 }
 

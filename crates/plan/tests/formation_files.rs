@@ -1,0 +1,108 @@
+//! What formation files say, and what they are told when they are wrong.
+
+use trench_plan::{Frame, parse};
+
+const GOOD: &str = "\
+name: pair
+frame: map
+motion: {approach: 3.0, speed: 0.1}
+queues:
+- name: line
+  segment: {kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}
+  starts: [[0.5, 0.5]]
+  vertices: [[1.5, 0.5]]
+  share: 1.0
+  tolerance: 0.02
+";
+
+fn refused(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "the test replaces what is not there: {from}");
+    parse("pair.yaml", &GOOD.replace(from, to)).unwrap_err().to_string()
+}
+
+#[test]
+fn a_good_file_becomes_a_plan() {
+    let plan = parse("pair.yaml", GOOD).unwrap();
+    assert_eq!((plan.frame, plan.places()), (Frame::Map, 1));
+    let place = plan.queues[0].places[0];
+    assert!((place.start - 0.5).abs() < 1e-12 && (place.end - 1.5).abs() < 1e-12);
+}
+
+#[test]
+fn the_hash_tells_formations_apart() {
+    let hash = |text: &str| parse("pair.yaml", text).unwrap().message(Default::default()).hash;
+    assert_eq!(hash(GOOD), hash(GOOD));
+    assert_ne!(hash(GOOD), hash(&GOOD.replace("0.02", "0.03")));
+}
+
+#[test]
+fn every_shipped_formation_is_good() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/formations");
+    let mut read = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        parse(&path.display().to_string(), &text).unwrap();
+        read += 1;
+    }
+    assert!(read >= 2, "{read} formations");
+}
+
+#[test]
+fn a_formation_without_segments() {
+    let text = GOOD.split("queues:").next().unwrap().to_owned() + "queues: []\n";
+    let error = parse("pair.yaml", &text).unwrap_err().to_string();
+    assert_eq!(error, "pair.yaml:4: queues: a formation without segments; give at least one queue");
+}
+
+#[test]
+fn shares_that_do_not_add_up() {
+    let error = refused("share: 1.0", "share: 0.7");
+    assert_eq!(error, "pair.yaml:5: queues: the shares add up to 0.7; make them add up to 1");
+}
+
+#[test]
+fn a_share_that_is_no_fraction() {
+    let error = refused("share: 1.0", "share: -1.0");
+    assert_eq!(error, "pair.yaml:9: queues[0].share = -1.0: is no fraction; write a number from 0 to 1");
+}
+
+#[test]
+fn a_segment_of_length_zero() {
+    let error = refused("[[0.0, 0.5], [2.0, 0.5]]", "[[0.0, 0.5], [0.0, 0.5]]");
+    assert!(error.starts_with("pair.yaml:6: queues[0].segment: "), "{error}");
+    assert!(error.contains("points 0 and 1"), "{error}");
+}
+
+#[test]
+fn an_unknown_key_and_the_one_that_was_meant() {
+    let error = refused("tolerance: 0.02", "tolerance: 0.02\n  tolerence: 0.02");
+    assert!(error.starts_with("pair.yaml:11: queues[0].tolerence"), "{error}");
+    assert!(error.contains("tolerance"), "{error}");
+}
+
+#[test]
+fn a_vertex_off_the_segment() {
+    let error = refused("vertices: [[1.5, 0.5]]", "vertices: [[1.5, 0.6]]");
+    let expected = "pair.yaml:8: queues[0].vertices[0]: is 0.1000 m away from the segment; \
+                    the nearest point of the segment is [1.5000, 0.5000]";
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn starts_without_their_vertices() {
+    let error = refused("starts: [[0.5, 0.5]]", "starts: [[0.5, 0.5], [0.6, 0.5]]");
+    assert!(error.contains("2 starts for 1 vertices"), "{error}");
+}
+
+#[test]
+fn wrong_types_and_kinds() {
+    let error = refused("speed: 0.1", "speed: fast");
+    assert!(error.starts_with("pair.yaml:3: motion.speed = fast"), "{error}");
+    let error = refused("kind: line", "kind: zigzag");
+    assert!(error.starts_with("pair.yaml:6: queues[0].segment.kind = zigzag: is no kind of segment"), "{error}");
+    let error = refused("approach: 3.0", "approach: .nan");
+    assert!(error.contains("not finite"), "{error}");
+    let error = refused("approach: 3.0", "approach: -3.0");
+    assert!(error.contains("is negative"), "{error}");
+}
