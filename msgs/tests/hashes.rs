@@ -19,10 +19,14 @@ fn hashes_of_messages_are_those_of_ros_2() {
         count += 1;
     }
     assert_eq!(count, 44);
+    // As `ros2 topic info --verbose` reports it.
+    let transforms = type_named("tf2_msgs/msg/TFMessage").map(|info| info.hash);
+    assert_eq!(transforms, Some("RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"));
 }
 
 #[test]
 fn hashes_of_services_are_those_of_ros_2() {
+    // Of the packages' own JSON; those of std_srvs as `ros2 service info --verbose` reports them.
     let expected = [
         (
             "rcl_interfaces/srv/DescribeParameters",
@@ -42,6 +46,9 @@ fn hashes_of_services_are_those_of_ros_2() {
             "rcl_interfaces/srv/SetParametersAtomically",
             "RIHS01_0e192ef259c07fc3c07a13191d27002222e65e00ccec653ca05e856f79285fcd",
         ),
+        ("std_srvs/srv/Empty", "RIHS01_5888399dedec5ccc85ea6451949fd2c9f97bfdf963f9a588821639fcd31b5d19"),
+        ("std_srvs/srv/SetBool", "RIHS01_abe9e4bb6b41b40e6789712c00ec8871923e089af3f667a79992a428cff2da0a"),
+        ("std_srvs/srv/Trigger", "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f"),
     ];
     for (name, hash) in expected {
         let service = services().iter().find(|service| service.name == name);

@@ -134,7 +134,7 @@ impl<'a> crate::cdr::ReadCdr<'a> for {name}{life} {{
 }}
 
 ",
-        smallest.join(" + ")
+        smallest.join("\n        + ")
     )
 }
 
