@@ -1,0 +1,14 @@
+//! From discs to robots: pairs of discs, one identity a pair, one filter an identity.
+
+mod assignment;
+mod filter;
+mod identity;
+mod pairing;
+mod settings;
+mod strangers;
+mod tracker;
+
+pub use filter::{Filter, Motion, State, wrap};
+pub use pairing::{MapDisc, Pair};
+pub use settings::{Robot, Settings};
+pub use tracker::{Status, Track, Tracker};

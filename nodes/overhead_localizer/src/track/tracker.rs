@@ -1,0 +1,203 @@
+//! The team: every robot's identity, status and filter from frame to frame.
+
+use super::filter::{Filter, Motion};
+use super::identity::Hypotheses;
+use super::pairing::{self, MapDisc, Pair};
+use super::settings::Settings;
+use super::strangers::Strangers;
+use crate::noise::Gaussian;
+use nalgebra::{Matrix3, Vector3};
+
+/// What is known of a robot in the present frame; numbers as in trench_msgs/RobotState.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Status {
+    /// Not seen for longer than the hold time, or never.
+    Lost = 0,
+    /// Seen in this frame.
+    Tracked = 1,
+    /// Not seen in this frame, carried forward.
+    Predicted = 2,
+    /// Which robot it is, is in doubt.
+    Ambiguous = 3,
+}
+
+/// One robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// Its name.
+    pub name: String,
+    /// What is known of it in the present frame.
+    pub status: Status,
+    /// Its estimate; None until it is first placed.
+    pub filter: Option<Filter>,
+    /// Since it was last seen, s; infinite if it never was.
+    pub unseen: f64,
+    pub(super) in_doubt: bool,
+    /// Whether it was seen in the previous frame.
+    pub(super) was_seen: bool,
+}
+
+/// Follows all robots of a team.
+#[derive(Debug, Clone)]
+pub struct Tracker {
+    settings: Settings,
+    tracks: Vec<Track>,
+    measurement: Matrix3<f64>,
+    strangers: Strangers,
+    noise: Gaussian,
+}
+
+/// How well a given start pose is known, m, m, rad: robots are put there by hand.
+const START_SIGMA: [f64; 3] = [0.06, 0.06, 0.3];
+/// Innovations beyond this squared distance (3 degrees of freedom, one in a million) are no noise: the robot starts, stops
+/// or is pushed. Then it may move so many times more freely; if even that does not explain it, it was lifted, and what was
+/// known of its speed is void.
+const PUSHED: f64 = 31.0;
+const FREER: f64 = 10.0;
+
+impl Tracker {
+    /// A tracker that has seen nothing yet; `seed` is for the noise of [`Settings::added_sigma`].
+    #[must_use]
+    pub fn new(settings: Settings, seed: u64) -> Self {
+        let of_disc = settings.disc_sigma;
+        let of_pose = [
+            of_disc * std::f64::consts::FRAC_1_SQRT_2,
+            of_disc * std::f64::consts::FRAC_1_SQRT_2,
+            of_disc * std::f64::consts::SQRT_2 / settings.pad.disc_spacing,
+        ];
+        let variance = |axis: usize| of_pose[axis] * of_pose[axis] + settings.added_sigma[axis].powi(2);
+        let measurement = Matrix3::from_diagonal(&Vector3::new(variance(0), variance(1), variance(2)));
+        let mut tracker = Self {
+            tracks: Vec::new(),
+            measurement,
+            strangers: Strangers::default(),
+            noise: Gaussian::new(seed),
+            settings,
+        };
+        tracker.reset();
+        tracker
+    }
+
+    /// Forgets all identities: they are found anew from the start poses or by order.
+    pub fn reset(&mut self) {
+        self.strangers = Strangers::default();
+        let unplaced = |robot: &super::settings::Robot| Track {
+            name: robot.name.clone(),
+            status: Status::Lost,
+            filter: robot.start.map(|pose| Filter::new(pose, START_SIGMA)),
+            unseen: f64::INFINITY,
+            in_doubt: false,
+            was_seen: false,
+        };
+        self.tracks = self.settings.robots.iter().map(unplaced).collect();
+    }
+
+    /// All robots, ordered as in the settings.
+    #[must_use]
+    pub fn tracks(&self) -> &[Track] {
+        &self.tracks
+    }
+
+    /// Takes the discs of a frame exposed `dt` (s) after the previous one; gives the number of pads seen.
+    pub fn step(&mut self, dt: f64, discs: &[MapDisc]) -> usize {
+        for track in &mut self.tracks {
+            track.advance(dt, &self.settings);
+        }
+        let pairs = self.pairs(discs);
+        let hypotheses = Hypotheses::new(&self.tracks, &pairs, &self.measurement);
+        let matched = hypotheses.best();
+        let doubtful = hypotheses.doubtful(&matched);
+        for (index, pair) in matched.iter().enumerate() {
+            if let Some(pair) = pair {
+                self.tracks[index].see(&pairs[*pair], &self.measurement, &self.settings);
+                self.tracks[index].in_doubt |= doubtful[index];
+            }
+        }
+        let unmatched: Vec<Pair> =
+            (0..pairs.len()).filter(|index| !matched.contains(&Some(*index))).map(|index| pairs[index]).collect();
+        self.strangers.place(&mut self.tracks, &unmatched, self.settings.hold, &self.measurement);
+        self.settle();
+        pairs.len()
+    }
+
+    /// The pads of a frame, with the noise that the settings ask for.
+    fn pairs(&mut self, discs: &[MapDisc]) -> Vec<Pair> {
+        let support = |pose| {
+            let fits = self.tracks.iter().filter_map(|track| track.fit(pose, &self.measurement));
+            fits.fold(0.0_f64, f64::max)
+        };
+        let mut pairs = pairing::pair(discs, &self.settings.pad, self.settings.spacing_tolerance, support);
+        // A fixed order, so that equal frames get equal noise whatever order their discs came in.
+        pairs.sort_by(|a, b| a.pose.x.total_cmp(&b.pose.x).then(a.pose.y.total_cmp(&b.pose.y)));
+        if self.settings.added_sigma.iter().any(|sigma| *sigma > 0.0) {
+            let [sigma_x, sigma_y, sigma_theta] = self.settings.added_sigma;
+            for Pair { pose, .. } in &mut pairs {
+                pose.x += sigma_x * self.noise.next();
+                pose.y += sigma_y * self.noise.next();
+                pose.theta = super::filter::wrap(pose.theta + sigma_theta * self.noise.next());
+            }
+        }
+        pairs
+    }
+
+    /// Gives every robot its status, after the last doubt is resolved: when all are seen, a single robot cannot be another.
+    fn settle(&mut self) {
+        let all_seen = self.tracks.iter().all(|track| track.unseen == 0.0);
+        if all_seen && self.tracks.iter().filter(|track| track.in_doubt).count() == 1 {
+            for track in &mut self.tracks {
+                track.in_doubt = false;
+            }
+        }
+        for track in &mut self.tracks {
+            track.status = match track {
+                _ if track.unseen > self.settings.hold => Status::Lost,
+                _ if track.in_doubt => Status::Ambiguous,
+                _ if track.unseen > 0.0 => Status::Predicted,
+                _ => Status::Tracked,
+            };
+        }
+    }
+}
+
+impl Track {
+    /// Carries the estimate over `dt` (s): in motion while held, at rest afterwards.
+    fn advance(&mut self, dt: f64, settings: &Settings) {
+        self.was_seen = self.unseen == 0.0;
+        let Some(filter) = &mut self.filter else { return };
+        if self.unseen == f64::INFINITY {
+            return;
+        }
+        let moving = dt.min((settings.hold - self.unseen).max(0.0));
+        if moving > 0.0 {
+            filter.predict(moving, &settings.motion);
+        }
+        if dt > moving {
+            filter.rest(dt - moving);
+        }
+        self.unseen += dt;
+    }
+
+    /// Takes a pad as this robot's.
+    fn see(&mut self, pair: &Pair, measurement: &Matrix3<f64>, settings: &Settings) {
+        let elapsed = self.unseen.min(settings.hold);
+        self.unseen = 0.0;
+        let Some(filter) = &mut self.filter else { return self.put(pair, measurement) };
+        if filter.distance2(pair.pose, measurement) > PUSHED {
+            let Motion { acceleration, turning, slip } = settings.motion;
+            let freer = Motion { acceleration: FREER * acceleration, turning: FREER * turning, slip: FREER * slip };
+            filter.disturb(elapsed, filter.state().pose.theta, &freer);
+        }
+        if filter.distance2(pair.pose, measurement) > PUSHED {
+            return self.put(pair, measurement);
+        }
+        filter.update(pair.pose, measurement);
+    }
+
+    /// Starts the estimate anew at a pad.
+    pub(super) fn put(&mut self, pair: &Pair, measurement: &Matrix3<f64>) {
+        self.unseen = 0.0;
+        let sigma = [0, 1, 2].map(|axis| libm::sqrt(measurement[(axis, axis)]));
+        self.filter = Some(Filter::new(pair.pose, sigma));
+    }
+}

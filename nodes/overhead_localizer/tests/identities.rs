@@ -1,0 +1,202 @@
+//! Identities through near encounters, gaps and disturbances, on projected discs.
+
+use nalgebra::Vector2;
+use overhead_localizer::track::{MapDisc, Robot, Settings, Status, Tracker};
+use overhead_localizer::vision::Colour;
+use trench_optics::{Pad, Pose2};
+
+const FRAME: f64 = 0.04;
+
+/// Uniform random numbers, seeded.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as f64) / 2_147_483_648.0
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
+fn tracker(starts: &[Pose2], change: impl Fn(&mut Settings)) -> Tracker {
+    let robot = |(index, pose): (usize, &Pose2)| Robot { name: format!("robot{}", index + 1), start: Some(*pose) };
+    let mut settings = Settings::new(starts.iter().enumerate().map(robot).collect());
+    change(&mut settings);
+    Tracker::new(settings, 1)
+}
+
+/// The discs of robots as a camera would give them, each hidden with probability `hidden`.
+fn discs(poses: &[Pose2], hidden: f64, random: &mut Random) -> Vec<MapDisc> {
+    let mut discs = Vec::new();
+    for pose in poses {
+        for (colour, place) in [Colour::Yellow, Colour::Blue].into_iter().zip(Pad::NOMINAL.discs(*pose)) {
+            let error = Vector2::new(random.within(-8e-5, 8e-5), random.within(-8e-5, 8e-5));
+            if random.unit() >= hidden {
+                discs.push(MapDisc { colour, position: place + error });
+            }
+        }
+    }
+    discs
+}
+
+fn distance(track: &overhead_localizer::track::Track, pose: Pose2) -> f64 {
+    let seen = track.filter.as_ref().unwrap().state().pose;
+    (seen.x - pose.x).hypot(seen.y - pose.y)
+}
+
+/// Two robots that drive past each other with `gap` (m) between their bodies at the nearest point, at time zero.
+fn encounter(random: &mut Random, gap: f64) -> impl Fn(f64) -> [Pose2; 2] + use<> {
+    let headings = loop {
+        let headings = [random.within(-3.14, 3.14), random.within(-3.14, 3.14)];
+        if (headings[0].sin() - headings[1].sin()).hypot(headings[0].cos() - headings[1].cos()) > 0.4 {
+            break headings;
+        }
+    };
+    let speeds = [random.within(0.1, 0.3), random.within(0.1, 0.3)];
+    let velocity = |robot: usize| speeds[robot] * Vector2::new(headings[robot].cos(), headings[robot].sin());
+    let (first, second) = (velocity(0), velocity(1));
+    let relative = (second - first).normalize();
+    let aside = (Pad::NOMINAL.body_diameter + gap) * Vector2::new(-relative.y, relative.x);
+    move |time| {
+        let at = |place: Vector2<f64>, theta| Pose2 { x: 1.2 + place.x, y: 0.9 + place.y, theta };
+        [at(first * time, headings[0]), at(aside + second * time, headings[1])]
+    }
+}
+
+/// Frames in which a robot is called tracked, and frames in which its identity is in doubt.
+fn run_encounter(seed: u64, gap: f64, hidden: f64, change: impl Fn(&mut Settings)) -> [usize; 2] {
+    let mut random = Random(seed);
+    let paths = encounter(&mut random, gap);
+    let mut tracker = tracker(&paths(-1.0), change);
+    let (mut tracked, mut doubtful) = (0, 0);
+    for frame in 0..50_i32 {
+        let poses = paths(-1.0 + FRAME * f64::from(frame));
+        tracker.step(if frame == 0 { 0.0 } else { FRAME }, &discs(&poses, hidden, &mut random));
+        for (track, pose) in tracker.tracks().iter().zip(poses) {
+            tracked += usize::from(track.status == Status::Tracked);
+            doubtful += usize::from(track.status == Status::Ambiguous);
+            let error = distance(track, pose);
+            assert!(track.status != Status::Tracked || error < 0.02, "seed {seed}, frame {frame}: off by {error} m");
+        }
+    }
+    [tracked, doubtful]
+}
+
+#[test]
+fn no_swap_in_a_thousand_encounters_at_two_centimetres() {
+    let (mut tracked, mut doubtful) = (0, 0);
+    for seed in 0..1000 {
+        // Every second one with the thesis's noise (4.5.3), discs missing in one frame out of twenty.
+        let noisy = |settings: &mut Settings| settings.added_sigma = [0.46e-3, 0.49e-3, 0.0122];
+        let counts = run_encounter(seed, 0.02, 0.05, |settings| {
+            if seed % 2 == 0 {
+                noisy(settings)
+            }
+        });
+        (tracked, doubtful) = (tracked + counts[0], doubtful + counts[1]);
+    }
+    // Seen with both discs in 90 % of all frames; hardly ever in doubt.
+    assert!(tracked > 85_000 && doubtful < 200, "tracked in {tracked} of 100,000, in doubt in {doubtful}");
+}
+
+#[test]
+fn no_swap_between_touching_robots() {
+    for seed in 0..200 {
+        let [tracked, doubtful] = run_encounter(seed, 0.0, 0.0, |_| ());
+        assert_eq!([tracked, doubtful], [100, 0], "seed {seed}");
+    }
+}
+
+#[test]
+fn an_unseen_robot_is_predicted_then_lost_and_found_again() {
+    let start = [Pose2 { x: 0.5, y: 0.5, theta: 0.0 }, Pose2 { x: 1.5, y: 0.5, theta: 1.0 }];
+    let mut random = Random(4);
+    let mut tracker = tracker(&start, |_| ());
+    let at = |frame: i32| Pose2 { x: 0.5 + 0.008 * f64::from(frame), ..start[0] };
+    for frame in 0..25 {
+        tracker.step(FRAME, &discs(&[at(frame), start[1]], 0.0, &mut random));
+    }
+    let mut statuses = Vec::new();
+    for frame in 25..40 {
+        tracker.step(FRAME, &discs(&[start[1]], 0.0, &mut random));
+        statuses.push(tracker.tracks()[0].status);
+        if frame < 37 {
+            let error = distance(&tracker.tracks()[0], at(frame));
+            assert!(error < 0.01, "carried forward, frame {frame}: off by {error} m");
+        }
+    }
+    // The hold time of 0.5 s is twelve frames.
+    assert_eq!(statuses, [[Status::Predicted; 12].as_slice(), &[Status::Lost; 3]].concat());
+    assert_eq!(tracker.tracks()[1].status, Status::Tracked);
+    // Carried to the other side of the field: it is the only one missing.
+    let carried = Pose2 { x: 2.2, y: 1.5, theta: 2.0 };
+    for _ in 0..3 {
+        tracker.step(FRAME, &discs(&[start[1], carried], 0.0, &mut random));
+    }
+    assert_eq!(tracker.tracks()[0].status, Status::Tracked);
+    assert!(distance(&tracker.tracks()[0], carried) < 1e-3);
+}
+
+#[test]
+fn robots_that_return_where_they_vanished_are_known_and_two_that_could_be_each_other_are_not() {
+    let check = |returns: [Pose2; 2], hidden_frames: i32, expected: Status| {
+        let start = [Pose2 { x: 1.0, y: 0.8, theta: 0.0 }, Pose2 { x: 1.3, y: 0.8, theta: 0.0 }];
+        let mut random = Random(9);
+        let mut tracker = tracker(&start, |_| ());
+        for _ in 0..10 {
+            tracker.step(FRAME, &discs(&start, 0.0, &mut random));
+        }
+        for _ in 0..hidden_frames {
+            tracker.step(FRAME, &[]);
+        }
+        for _ in 0..5 {
+            tracker.step(FRAME, &discs(&returns, 0.0, &mut random));
+        }
+        for track in tracker.tracks() {
+            assert_eq!(track.status, expected, "{returns:?} after {hidden_frames} frames");
+        }
+    };
+    let same = [Pose2 { x: 1.0, y: 0.8, theta: 0.0 }, Pose2 { x: 1.3, y: 0.8, theta: 0.0 }];
+    let elsewhere = [Pose2 { x: 1.15, y: 0.9, theta: 0.0 }, Pose2 { x: 1.15, y: 0.7, theta: 0.0 }];
+    let far = [Pose2 { x: 0.3, y: 0.3, theta: 0.0 }, Pose2 { x: 2.0, y: 1.5, theta: 0.0 }];
+    check(same, 10, Status::Tracked);
+    check(same, 25, Status::Tracked);
+    check(elsewhere, 250, Status::Ambiguous);
+    check(far, 25, Status::Ambiguous);
+}
+
+#[test]
+fn without_start_poses_names_go_by_x_once_all_are_there() {
+    let names = ["a", "b", "c"].map(|name| Robot { name: name.to_owned(), start: None });
+    let mut tracker = Tracker::new(Settings::new(names.to_vec()), 1);
+    let poses = [0.9, 0.3, 1.8].map(|x| Pose2 { x, y: 0.5, theta: x });
+    let mut random = Random(2);
+    for _ in 0..10 {
+        tracker.step(FRAME, &discs(&poses[..2], 0.0, &mut random));
+        assert!(tracker.tracks().iter().all(|track| track.status == Status::Lost), "a pad is missing");
+    }
+    for _ in 0..3 {
+        tracker.step(FRAME, &discs(&poses, 0.0, &mut random));
+    }
+    for (track, x) in tracker.tracks().iter().zip([0.3, 0.9, 1.8]) {
+        assert!(track.status == Status::Tracked && (track.filter.as_ref().unwrap().state().pose.x - x).abs() < 1e-3);
+    }
+    tracker.reset();
+    assert!(tracker.tracks().iter().all(|track| track.status == Status::Lost && track.filter.is_none()));
+}
+
+#[test]
+fn a_pushed_robot_is_followed() {
+    let start = [Pose2 { x: 1.0, y: 0.8, theta: 0.0 }];
+    let mut random = Random(3);
+    let mut tracker = tracker(&start, |_| ());
+    for _ in 0..10 {
+        tracker.step(FRAME, &discs(&start, 0.0, &mut random));
+    }
+    let pushed = Pose2 { x: 1.0, y: 0.84, theta: 0.4 };
+    tracker.step(FRAME, &discs(&[pushed], 0.0, &mut random));
+    assert!(tracker.tracks()[0].status == Status::Tracked && distance(&tracker.tracks()[0], pushed) < 1e-3);
+}
