@@ -7,6 +7,7 @@
 //! Architecture invariant: a core reads no clock, socket, file, thread or environment variable. Same construction and
 //! same events, same calls on the sink, bit for bit.
 
+pub mod arguments;
 mod description;
 mod event;
 mod health;

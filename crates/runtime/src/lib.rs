@@ -9,10 +9,10 @@
 //! Architecture invariant: one thread runs the core and everything it calls; it waits in one place and never blocks
 //! elsewhere.
 
-mod arguments;
 mod checkpoint;
 mod clock;
 mod exit;
+mod help;
 mod log;
 mod node;
 mod process;
@@ -22,7 +22,6 @@ mod stream;
 mod timer;
 mod transport;
 
-pub use arguments::{Arguments, ParameterSource, Remap, UsageError};
 pub use exit::Exit;
 pub use run::run;
 pub use transport::TransportError;

@@ -1,9 +1,9 @@
 //! From a command line to a running process.
 
-use crate::arguments::{Arguments, Names, ParameterSource, UsageError, help};
 use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::exit::Exit;
+use crate::help;
 use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
 use crate::process::Process;
@@ -13,6 +13,7 @@ use std::process::ExitCode;
 use std::{env, fs, io};
 use trench_config::params::{self, Source};
 use trench_config::{ConfigError, Origin, ParameterDescriptor, Parameters};
+use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription, StartError};
 
 /// The highest domain whose ports exist.

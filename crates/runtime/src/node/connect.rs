@@ -2,7 +2,6 @@
 
 use super::subscription::Reading;
 use super::{Caller, Node, Ports, Publication, Subscription, Wake};
-use crate::arguments::{NameKind, Names};
 use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::log::Logger;
@@ -12,6 +11,7 @@ use crate::transport::dds::{Participant, TopicName, full_name};
 use crate::transport::shared_memory::{Host, SharedWriter};
 use rustdds::mio1::{Interest, Registry, Token, event};
 use std::collections::BTreeMap;
+use trench_core::arguments::{NameKind, Names};
 use trench_core::{Advertise, Level, Local, NodeCore, Qos, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::rcl_interfaces::Log;

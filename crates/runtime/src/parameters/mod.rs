@@ -1,10 +1,10 @@
-//! The parameters of a running node and the services through which they are looked at and changed.
+//! The parameters of a running node, and the services through which they are looked at and changed.
 
-mod describe;
-mod event;
 mod list;
 mod server;
-mod set;
+mod service;
+mod store;
 mod value;
 
-pub(crate) use server::{ParameterServer, SERVICES};
+pub(crate) use server::ParameterServer;
+pub(crate) use service::ParameterService;

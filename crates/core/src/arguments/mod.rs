@@ -1,14 +1,12 @@
 //! The command line of a ROS 2 node: `--ros-args ... [--]`, as often as one likes, and `--help`.
 
 mod error;
-pub(crate) mod help;
 mod remap;
 
 pub use error::UsageError;
-pub use remap::Remap;
-pub(crate) use remap::{NameKind, Names};
+pub use remap::{NameKind, Names, Remap};
 
-use trench_core::Level;
+use crate::Level;
 
 /// Where a parameter value comes from, in the order of the command line.
 #[derive(Debug, Clone, PartialEq, Eq)]

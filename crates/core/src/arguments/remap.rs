@@ -1,7 +1,7 @@
 //! Remapping rules: other names for topics, services, the node and its namespace.
 
 use super::UsageError;
-use trench_core::resolve_name;
+use crate::resolve_name;
 
 /// What a rule renames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,7 +9,9 @@ enum Target {
     Node,
     Namespace,
     Any,
+    /// Of a topic.
     Topic,
+    /// Of a service.
     Service,
 }
 
@@ -24,7 +26,7 @@ pub struct Remap {
 
 /// Names of topics and services are remapped alike, but a rule can be for one kind alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum NameKind {
+pub enum NameKind {
     Topic,
     Service,
 }
@@ -69,17 +71,17 @@ impl Remap {
 
 /// A node's name and namespace once remapped, and the rules for its topics and services.
 #[derive(Debug, Clone)]
-pub(crate) struct Names<'a> {
+pub struct Names<'a> {
     /// The node's name.
-    pub(crate) node: String,
+    pub node: String,
     /// Its namespace, absolute.
-    pub(crate) namespace: String,
+    pub namespace: String,
     remaps: &'a [Remap],
 }
 
 impl<'a> Names<'a> {
     /// For the node whose executable calls it `default_name`.
-    pub(crate) fn new(remaps: &'a [Remap], default_name: &str) -> Self {
+    pub fn new(remaps: &'a [Remap], default_name: &str) -> Self {
         let find = |target| remaps.iter().find(|remap| remap.target == target && remap.is_for(default_name));
         let node = find(Target::Node).map_or(default_name, |remap| &remap.to).to_owned();
         let namespace = find(Target::Namespace).map_or("/", |remap| &remap.to);
@@ -88,7 +90,7 @@ impl<'a> Names<'a> {
     }
 
     /// The absolute name that the core's `name` has on the network.
-    pub(crate) fn resolve(&self, name: &str, kind: NameKind) -> String {
+    pub fn resolve(&self, name: &str, kind: NameKind) -> String {
         let absolute = resolve_name(name, &self.namespace, &self.node);
         let applies = |remap: &&Remap| {
             let kind_fits = match remap.target {
