@@ -15,8 +15,16 @@ use nalgebra::Vector2;
 const LOOK_AHEAD: f64 = 0.6;
 /// Space between a way round and what is passed, beyond the filter's margin, m.
 const BUFFER: f64 = 0.02;
+/// Least part of it: a way at no distance at all from what is passed would have to be driven at no speed at all.
+const SLACK: f64 = 0.005;
 /// By how much the way on the left must be shorter to be taken, m.
 const RIGHT_BIAS: f64 = 0.05;
+/// Cosine at which a way along a barrier leads away from it.
+const LEAVING: f64 = 0.05;
+/// A goal that can be approached to within this counts as one that can be reached, m.
+const ARRIVAL: f64 = 0.03;
+/// What rounding may take from a distance, m.
+const ROUNDING: f64 = 1e-9;
 /// Most blockages considered: the bits of the cluster's set.
 const MOST_ITEMS: usize = 128;
 /// Most clusters joined one after the other on the way to a tangent point.
@@ -61,7 +69,18 @@ impl View<'_> {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.way_length(&extents[side as usize], side));
         let order = if left + RIGHT_BIAS < right { [Side::Left, Side::Right] } else { [Side::Right, Side::Left] };
         let target = order.into_iter().find_map(|side| self.tangent(side, members, extents))?;
-        Some(Detour { direction: (target - self.centre).try_normalize(0.0)?, blocker: self.constraint(first) })
+        let direction = self.along_barriers((target - self.centre).try_normalize(0.0)?);
+        Some(Detour { direction, blocker: self.constraint(first) })
+    }
+
+    /// Turns `direction` along what the robot all but touches, which would stop it otherwise.
+    fn along_barriers(&self, mut direction: Vector2<f64>) -> Vector2<f64> {
+        for barrier in self.scene.barriers(self.centre, self.parameters, 0.0).filter(|barrier| barrier.budget < SLACK) {
+            let excess = direction.dot(&barrier.towards) + LEAVING;
+            let slid = direction - excess.max(0.0) * barrier.towards;
+            direction = slid.try_normalize(0.1).unwrap_or(direction);
+        }
+        direction
     }
 
     /// The tangent point on one side of a cluster and of all that blocks the way to it; `None` if that side is closed.
@@ -97,17 +116,39 @@ impl View<'_> {
         }
     }
 
+    /// Least distance of the robot's centre from an item's polygon.
+    fn touching(&self, outline: &Outline<'_>) -> f64 {
+        outline.radius + self.parameters.radius + self.parameters.margin
+    }
+
+    /// Moves the goal out of items that cover it but let the robot come within [`ARRIVAL`] of it.
+    pub(super) fn with_goal_uncovered(mut self) -> Self {
+        for item in 0..self.count() {
+            let outline = self.outline(item);
+            let approach = outline.approach(self.goal);
+            let covered = self.touching(&outline) - (approach.gap + outline.radius);
+            if covered > 0.0 && covered <= ARRIVAL {
+                self.goal -= covered * approach.towards;
+            }
+        }
+        self
+    }
+
     /// Distance that the centre keeps from an item's polygon on a way round: less if the goal is nearer than that.
     /// `None` if the item covers the goal for good; then there is no way round, and the robot stops near it.
     fn berth(&self, item: usize) -> Option<f64> {
         let outline = self.outline(item);
-        let touching = outline.radius + self.parameters.radius + self.parameters.margin;
-        let goal_distance = outline.approach(self.goal).gap + outline.radius;
+        let touching = self.touching(&outline);
+        let goal_distance = self.goal_distance(&outline);
         let stays = self.scene.neighbours.get(item).is_none_or(|neighbour| neighbour.settled || !neighbour.cooperative);
-        if goal_distance >= touching {
-            return Some(goal_distance.min(touching + BUFFER));
+        if goal_distance >= touching - ROUNDING {
+            return Some(goal_distance.clamp(touching + SLACK, touching + BUFFER));
         }
         (!stays).then_some(touching + BUFFER)
+    }
+
+    fn goal_distance(&self, outline: &Outline<'_>) -> f64 {
+        outline.approach(self.goal).gap + outline.radius
     }
 
     /// The nearest item, not in `passed`, on the straight way to `target`.
@@ -123,8 +164,9 @@ impl View<'_> {
             let outline = self.outline(*item);
             let approach = outline.approach(self.centre);
             let distance = approach.gap + outline.radius;
-            // A little less than the berth of the tangent, which must itself be free.
-            let blocks = outline.gap(&path) + outline.radius < berth - 0.25 * BUFFER;
+            // Less than the berth, because the tangent must itself be free, and less than the goal's distance.
+            let free = (berth - SLACK).min(self.goal_distance(&outline) - ROUNDING);
+            let blocks = outline.gap(&path) + outline.radius < free;
             (blocks && approach.towards.dot(&direction) > 0.0).then_some(distance)
         };
         let items = (0..self.count()).filter(|item| passed & (1 << item) == 0);
@@ -158,8 +200,7 @@ impl View<'_> {
             let Some(berth) = self.berth(item) else { continue };
             self.widen(&mut extents, item, berth, angles[item]);
             for other in 0..self.count() {
-                let passage = 2.0 * (self.parameters.radius + self.parameters.margin);
-                if known & (1 << other) == 0 && self.outline(item).gap(&self.outline(other)) < passage {
+                if known & (1 << other) == 0 && self.leaves_no_passage(item, berth, other) {
                     known |= 1 << other;
                     queue[length] = other;
                     length += 1;
@@ -168,6 +209,11 @@ impl View<'_> {
             }
         }
         (known, extents)
+    }
+
+    fn leaves_no_passage(&self, item: usize, berth: f64, other: usize) -> bool {
+        let (a, b) = (self.outline(item), self.outline(other));
+        self.berth(other).is_some_and(|other_berth| a.gap(&b) + a.radius + b.radius < berth + other_berth)
     }
 
     /// Widens the extents by the tangents to each corner of an item; from inside its berth, the way leads out.
@@ -181,7 +227,7 @@ impl View<'_> {
                 (libm::asin(berth / distance), (distance * distance - berth * berth).sqrt())
             } else {
                 let inside = ((berth - distance) / BUFFER).min(1.0);
-                (FRAC_PI_2 + 0.5 * inside, 0.0)
+                (FRAC_PI_2 + 0.05 + 0.5 * inside, 0.0)
             };
             for (extent, sign) in extents.iter_mut().zip([-1.0, 1.0]) {
                 let edge = angle + sign * half;

@@ -60,7 +60,9 @@ impl SafetyFilter {
             return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite) };
         }
         let detour = wish.goal.and_then(|goal| {
-            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal }.detour()
+            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal }
+                .with_goal_uncovered()
+                .detour()
         });
         let (wanted, blocker) = match detour {
             Some(detour) => (self.steer(pose, wish.twist, detour.direction), Some(detour.blocker)),
