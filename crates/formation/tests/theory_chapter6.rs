@@ -1,4 +1,5 @@
 //! Chapter 6: the simulation of 6.5 and the energy argument of A.12.
+#![expect(clippy::unwrap_used, reason = "a test may fail by a panic in a function of its own")]
 use nalgebra::SVector;
 use proptest::prelude::*;
 use trench_formation::Vector2;

@@ -1,15 +1,24 @@
 //! Stable zone, closed forms of chapter 4, input-to-state bounds of chapter 8.
+mod cascade;
 mod closed_form;
 mod curvature;
+mod eigenvalues;
 mod energy;
+mod input_to_state;
 mod integrate;
+mod lyapunov_equation;
 mod mismatch;
 mod special;
 mod stable_zone;
 
+pub use cascade::cascade_bounds;
 pub use closed_form::{ClosedForm, TwoGainLaw};
 pub use energy::velocity_energy;
+pub use input_to_state::{
+    ChainError, Coupling, InputToState, QueueRobot, input_to_state, longest_within, recursive_bounds,
+};
 pub use integrate::rk4;
+pub use lyapunov_equation::{LyapunovError, solve_lyapunov};
 pub use mismatch::final_misalignment;
 pub use special::{entire_cosine_integral, sine_integral};
 pub use stable_zone::{C1, C2, LAMBDA_STAR, StableZone, Violation};
