@@ -2,6 +2,7 @@
 
 use crate::definition::{Base, Definition, Field, Service, Shape};
 use crate::{Error, hash};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// No real definition nests messages deeper than a few levels; a hostile one in a bag could exhaust the stack.
@@ -20,10 +21,12 @@ impl Library {
     /// # Errors
     /// When the name is taken.
     pub fn add_message(&mut self, definition: Definition) -> Result<(), Error> {
-        let name = definition.name.clone();
-        match self.definitions.insert(name.clone(), definition) {
-            None => Ok(()),
-            Some(_) => Err(Error::Duplicate(name)),
+        match self.definitions.entry(definition.name.clone()) {
+            Entry::Vacant(place) => {
+                place.insert(definition);
+                Ok(())
+            }
+            Entry::Occupied(taken) => Err(Error::Duplicate(taken.key().clone())),
         }
     }
 
@@ -144,5 +147,73 @@ impl Library {
             ],
         ))?;
         library.hash(&service.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{parse_message, parse_service};
+
+    fn library(definitions: &[(&str, &str)]) -> Library {
+        let mut library = Library::default();
+        for (name, text) in definitions {
+            library.add_message(parse_message(name, text).expect(text)).expect("another name");
+        }
+        library
+    }
+
+    #[test]
+    fn everything_contained_comes_first_and_once() {
+        let library = library(&[("p/msg/A", "B b\nC c"), ("p/msg/B", "C[] c"), ("p/msg/C", "uint8 x")]);
+        let names: Vec<&str> =
+            library.closure("p/msg/A").expect("complete").into_iter().map(|found| found.name.as_str()).collect();
+        assert_eq!(names, ["p/msg/C", "p/msg/B", "p/msg/A"]);
+    }
+
+    #[test]
+    fn what_is_missing_or_circular_is_named() {
+        let cyclic = library(&[("p/msg/A", "B b"), ("p/msg/B", "A[] a")]);
+        assert_eq!(cyclic.hash("p/msg/A"), Err(Error::Cycle("p/msg/A".to_owned())));
+        let missing = Error::Missing { name: "p/msg/A".to_owned(), missing: "p/msg/B".to_owned() };
+        assert_eq!(library(&[("p/msg/A", "B b")]).hash("p/msg/A"), Err(missing));
+        let chain: Vec<(String, String)> =
+            (0..40).map(|index| (format!("p/msg/N{index}"), format!("N{} next", index + 1))).collect();
+        let chain: Vec<(&str, &str)> = chain.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+        let deep = Error::Depth("p/msg/N0".to_owned(), GREATEST_DEPTH);
+        assert_eq!(library(&chain).hash("p/msg/N0"), Err(deep));
+    }
+
+    #[test]
+    fn a_name_is_taken_once() {
+        let mut library = library(&[("p/msg/A", "")]);
+        let again = parse_message("p/msg/A", "uint8 x").expect("valid");
+        assert_eq!(library.add_message(again), Err(Error::Duplicate("p/msg/A".to_owned())));
+        assert_eq!(library.get("p/msg/A").map(|kept| kept.fields.len()), Some(0));
+    }
+
+    #[test]
+    fn hashes_ignore_comments_constants_and_defaults() {
+        // The hash of std_msgs/msg/Empty as ROS 2 states it.
+        let empty = "RIHS01_20b625256f32d5dbc0d04fee44f43c41e51c70d3502f84b4a08e7a9c26a96312";
+        assert_eq!(
+            library(&[("std_msgs/msg/Empty", "# Nothing.\nuint8 A=1")]).hash("std_msgs/msg/Empty").as_deref(),
+            Ok(empty)
+        );
+        let plain = library(&[("p/msg/A", "uint8 x")]).hash("p/msg/A");
+        assert_eq!(library(&[("p/msg/A", "uint8 x 7 # seven")]).hash("p/msg/A"), plain);
+        assert_ne!(library(&[("p/msg/A", "uint8 y")]).hash("p/msg/A"), plain);
+    }
+
+    #[test]
+    fn the_hash_of_a_service_needs_its_event() {
+        let service = parse_service("p/srv/Ask", "uint8 a\n---\nuint8 b").expect("valid");
+        let mut library = Library::default();
+        library.add_service(service.clone()).expect("new");
+        let missing = Error::Missing {
+            name: "p/srv/Ask_Event".to_owned(),
+            missing: "service_msgs/msg/ServiceEventInfo".to_owned(),
+        };
+        assert_eq!(library.service_hash(&service), Err(missing));
     }
 }

@@ -87,3 +87,54 @@ fn split_list(text: &str) -> Vec<&str> {
     parts.push(&text[start..]);
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_of_every_type() {
+        let check = |text: &str, primitive, expected: Result<Literal, &str>| {
+            let found = parse(text, &Base::Primitive(primitive), Shape::Single);
+            assert_eq!(found, expected.map_err(str::to_owned), "{text}");
+        };
+        check("-128", Primitive::Int8, Ok(Literal::Integer(-128)));
+        check("0x1F", Primitive::UInt8, Ok(Literal::Integer(31)));
+        check("-0b101", Primitive::Int16, Ok(Literal::Integer(-5)));
+        check("18446744073709551615", Primitive::UInt64, Ok(Literal::Integer(i128::from(u64::MAX))));
+        check("256", Primitive::Byte, Err("256 does not fit byte"));
+        check("-1", Primitive::UInt32, Err("-1 does not fit uint32"));
+        check("1.5", Primitive::Int32, Err("`1.5` is not an integer"));
+        check("", Primitive::Int32, Err("`` is not an integer"));
+        check("1e-3", Primitive::Float64, Ok(Literal::Float(0.001)));
+        check("nan", Primitive::Float32, Err("`nan` is not a finite number"));
+        check("True", Primitive::Bool, Ok(Literal::Bool(true)));
+        check("yes", Primitive::Bool, Err("`yes` is neither true nor false"));
+    }
+
+    #[test]
+    fn strings_lose_their_quotes() {
+        let check = |text: &str, expected: &str| {
+            let found = parse(text, &Base::String { bound: None }, Shape::Single);
+            assert_eq!(found, Ok(Literal::Text(expected.to_owned())), "{text}");
+        };
+        check("\"a \\\" b\"", "a \" b");
+        check("'it'", "it");
+        check("bare words", "bare words");
+        check("\"", "\"");
+    }
+
+    #[test]
+    fn arrays_hold_as_many_as_their_type() {
+        let numbers = Base::Primitive(Primitive::UInt8);
+        let list = |values: &[i128]| Ok(Literal::List(values.iter().copied().map(Literal::Integer).collect()));
+        assert_eq!(parse("[1, 2]", &numbers, Shape::Array(2)), list(&[1, 2]));
+        assert_eq!(parse("[]", &numbers, Shape::Sequence), list(&[]));
+        assert_eq!(parse("[7]", &numbers, Shape::Bounded(2)), list(&[7]));
+        for (text, shape) in [("[1]", Shape::Array(2)), ("[1, 2, 3]", Shape::Bounded(2)), ("1, 2", Shape::Sequence)] {
+            assert!(parse(text, &numbers, shape).is_err(), "{text}");
+        }
+        let texts = parse("['a, b', c]", &Base::String { bound: None }, Shape::Sequence);
+        assert_eq!(texts, Ok(Literal::List(vec![Literal::Text("a, b".to_owned()), Literal::Text("c".to_owned())])));
+    }
+}

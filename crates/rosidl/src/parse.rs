@@ -150,3 +150,90 @@ fn parse_size(text: &str) -> Result<usize, String> {
 fn is_identifier(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::definition::Literal;
+    use proptest::prelude::*;
+
+    fn field(line: &str) -> Result<Field, String> {
+        let definition = parse_message("my_msgs/msg/Mine", line).map_err(|error| error.to_string())?;
+        definition.fields.into_iter().next().ok_or_else(|| "no field".to_owned())
+    }
+
+    #[test]
+    fn types_and_shapes() {
+        let check = |line: &str, base: Base, shape: Shape| {
+            let field = field(line).expect(line);
+            assert_eq!((field.base, field.shape), (base, shape), "{line}");
+        };
+        let nested = |name: &str| Base::Nested(name.to_owned());
+        check("float64 x", Base::Primitive(Primitive::Float64), Shape::Single);
+        check("char[16] gid", Base::Primitive(Primitive::UInt8), Shape::Array(16));
+        check("byte[] b", Base::Primitive(Primitive::Byte), Shape::Sequence);
+        check("string<=10[<=5] names", Base::String { bound: Some(10) }, Shape::Bounded(5));
+        check("wstring\tw", Base::WideString { bound: None }, Shape::Single);
+        check("Other[] others", nested("my_msgs/msg/Other"), Shape::Sequence);
+        check("std_msgs/Header header", nested("std_msgs/msg/Header"), Shape::Single);
+        check("std_msgs/msg/Header header", nested("std_msgs/msg/Header"), Shape::Single);
+    }
+
+    #[test]
+    fn comments_go_to_what_they_describe() {
+        let text = "# The type,\n# in two lines.\n\n# lost\n\n# Above.\nuint8 a=1  # Behind.\nuint8 b\n";
+        let definition = parse_message("my_msgs/msg/Mine", text).expect("valid");
+        assert_eq!(definition.comment, ["The type,", "in two lines."]);
+        assert_eq!(definition.constants[0].comment, ["Above.", "Behind."]);
+        assert!(definition.fields[0].comment.is_empty());
+    }
+
+    #[test]
+    fn constants_and_defaults() {
+        let definition = parse_message("my_msgs/msg/Mine", "string A = it's = x\nint8 b -3\nstring c 'a=b'\n");
+        let definition = definition.expect("valid");
+        assert_eq!(definition.constants[0].value, Literal::Text("it's = x".to_owned()));
+        assert_eq!(definition.fields[0].default, Some(Literal::Integer(-3)));
+        assert_eq!(definition.fields[1].default, Some(Literal::Text("a=b".to_owned())));
+    }
+
+    #[test]
+    fn services_have_two_halves() {
+        let service = parse_service("my_msgs/srv/Ask", "# Asks.\nuint8 a\n---\nuint8 b\n").expect("valid");
+        assert_eq!(service.comment, ["Asks."]);
+        assert_eq!(service.request.name, "my_msgs/srv/Ask_Request");
+        assert_eq!(service.response.fields[0].name, "b");
+        for (text, separators) in [("uint8 a\n", 0), ("---\n---\n", 2)] {
+            let expected = Error::Separator("my_msgs/srv/Ask".to_owned(), separators);
+            assert_eq!(parse_service("my_msgs/srv/Ask", text), Err(expected));
+        }
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        let check = |text: &str, expected: &str| {
+            let error = parse_message("my_msgs/msg/Mine", text).expect_err(text);
+            assert_eq!(error.to_string(), format!("my_msgs/msg/Mine, {expected}"));
+        };
+        check("\n\nuint8", "line 3: `uint8` has a type but no name");
+        check("uint8 a\nint8 a", "line 2: the name a is used twice");
+        check("uint8[0] a", "line 1: `0` is not a size of 1 or more");
+        check("uint8<=4 a", "line 1: `uint8<=4`: only strings have a bound");
+        check("uint8 a 300", "line 1: 300 does not fit uint8");
+        check("uint8[2] A=1", "line 1: the constant A is an array");
+        check("Other a 3", "line 1: a field of type my_msgs/msg/Other cannot have a value in the text");
+        check("a/b/c/D d", "line 1: `a/b/c/D` is not a type");
+        check("uint8 9", "line 1: `9` does not begin with a name");
+        assert_eq!(parse_message("Mine", ""), Err(Error::Name("Mine".to_owned())));
+    }
+
+    proptest! {
+        #[test]
+        fn no_text_panics(text in "([a-z0-9_/<=\\[\\] #'\"-]{0,30}\n){0,6}") {
+            // What is understood says at least which type it is.
+            if let Ok(definition) = parse_message("my_msgs/msg/Mine", &text) {
+                prop_assert_eq!(definition.package(), "my_msgs");
+            }
+        }
+    }
+}

@@ -67,3 +67,35 @@ pub(crate) fn full_name(name: &str) -> Result<String, Error> {
         _ => Err(Error::Name(name.to_owned())),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_of_a_library_is_read_back() {
+        let line = "=".repeat(SEPARATOR);
+        let text = format!("# A.\nB b\n{line}\nMSG: p/B\nq/C c\n{line}\nMSG: q/C\nuint8 x\n");
+        let library = Library::from_ros2msg("p/msg/A", &text).expect("valid");
+        let again = library.ros2msg("p/msg/A").expect("complete");
+        assert_eq!(Library::from_ros2msg("p/A", &again).expect("valid").hash("p/msg/A"), library.hash("p/msg/A"));
+        assert_eq!(library.definitions().count(), 3);
+    }
+
+    #[test]
+    fn a_repeated_dependency_is_taken_once() {
+        let line = "=".repeat(SEPARATOR);
+        let text = format!("B b\n{line}\nMSG: p/msg/B\nuint8 x\n{line}\nMSG: p/B\nuint8 x\n");
+        assert_eq!(Library::from_ros2msg("p/msg/A", &text).map(|library| library.definitions().count()), Ok(2));
+    }
+
+    #[test]
+    fn what_is_no_part_is_named() {
+        let line = "=".repeat(SEPARATOR);
+        let error = Library::from_ros2msg("p/msg/A", &format!("uint8 x\n{line}\nIDL: p/B\n")).expect_err("no part");
+        let expected = "p/msg/A, line 3: `MSG: package/Type` is expected behind a line of `=`, not `IDL: p/B`";
+        assert_eq!(error.to_string(), expected);
+        let error = Library::from_ros2msg("p/msg/A", &line).expect_err("no part");
+        assert!(error.to_string().ends_with("not ``"), "{error}");
+    }
+}

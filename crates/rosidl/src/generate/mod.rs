@@ -70,3 +70,48 @@ fn registry(context: &Context) -> String {
          macro_rules! for_every_message {{\n    ($function:ident) => {{\n{calls}    }};\n}}\n"
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parse_message;
+
+    fn source(text: &str, views: &[&str]) -> Result<String, Error> {
+        let mut library = Library::default();
+        library.add_message(parse_message("p/msg/Mine", text)?)?;
+        library.add_message(parse_message("q/msg/Bytes", "uint8[] data")?)?;
+        generate(&library, &Settings { own_package: "p", views })
+    }
+
+    #[test]
+    fn names_that_rust_keeps_for_itself_are_escaped() {
+        let source = source("uint8 type\nuint8 self", &[]).expect("valid");
+        assert!(source.contains("pub r#type: u8,") && source.contains("pub self_: u8,"), "{source}");
+    }
+
+    #[test]
+    fn comments_become_documentation_without_links() {
+        let source = source("# See [3].\n\nuint8 a  # one of A_*", &[]).expect("valid");
+        assert!(source.contains("/// See \\[3\\].\n"), "{source}");
+        assert!(source.contains("    /// one of A\\_\\*\n    pub a: u8,"), "{source}");
+    }
+
+    #[test]
+    fn borrowed_forms_reach_into_what_they_contain() {
+        let source = source("uint8 a\nq/Bytes bytes\nstring s", &["p/msg/Mine"]).expect("valid");
+        assert!(source.contains("pub struct MineView<'a>") && source.contains("pub struct BytesView<'a>"), "{source}");
+        assert!(source.contains("pub bytes: crate::q::BytesView<'a>,"), "{source}");
+    }
+
+    #[test]
+    fn what_has_no_rust_type_is_refused() {
+        let check = |text: &str, views: &[&str], expected: &str| {
+            assert_eq!(source(text, views).map_err(|error| error.to_string()), Err(expected.to_owned()));
+        };
+        check("wstring w", &[], "p/msg/Mine.w: a wstring is not supported");
+        check("string<=3[] s", &[], "p/msg/Mine.s: a sequence of bounded strings is not supported");
+        let borrowed = "a borrowed form of what is neither string, bytes nor of a fixed size";
+        check("string s\nfloat64[] d", &["p/msg/Mine"], &format!("p/msg/Mine.d: {borrowed} is not supported"));
+        check("Absent a", &[], "p/msg/Mine uses p/msg/Absent, whose definition is missing");
+    }
+}
