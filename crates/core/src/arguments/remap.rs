@@ -27,7 +27,9 @@ pub struct Remap {
 /// Names of topics and services are remapped alike, but a rule can be for one kind alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NameKind {
+    /// Of a topic.
     Topic,
+    /// Of a service.
     Service,
 }
 
