@@ -15,6 +15,7 @@ mod exit;
 mod help;
 mod log;
 mod node;
+mod parameters;
 mod process;
 mod run;
 mod signals;

@@ -6,6 +6,7 @@ use crate::exit::Exit;
 use crate::help;
 use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
+use crate::parameters::ParameterServer;
 use crate::process::Process;
 use crate::transport::TransportError;
 use crate::transport::dds::full_name;
@@ -22,9 +23,13 @@ const LAST_DOMAIN: u16 = 232;
 /// The runtime's own parameter.
 const PUBLISH_OVER_NETWORK: &str = "publish_over_network";
 
-fn publish_over_network() -> ParameterDescriptor {
-    let text = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
-    ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], text).read_only()
+fn own_parameters() -> [ParameterDescriptor; 2] {
+    let clock = "whether /clock is this node's time";
+    let network = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
+    [
+        ParameterDescriptor::bool(params::USE_SIM_TIME, false, clock).read_only(),
+        ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], network).read_only(),
+    ]
 }
 
 /// Why a process ends before or while it runs.
@@ -69,7 +74,7 @@ pub fn run(description: NodeDescription) -> ExitCode {
 fn run_with(description: NodeDescription, command_line: impl Iterator<Item = String>) -> Result<u8, RunError> {
     let arguments = Arguments::parse(command_line)?;
     let mut descriptors = (description.parameters)();
-    descriptors.push(publish_over_network());
+    descriptors.extend(own_parameters());
     if arguments.help {
         print!("{}", help::text(&description, &descriptors));
         return Ok(0);
@@ -83,6 +88,7 @@ fn run_with(description: NodeDescription, command_line: impl Iterator<Item = Str
 
     let use_sim_time = parameters.bool(params::USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
     let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
+    let publish_over_network = over_network.to_vec();
     let name = logger_name(&full);
     let level = arguments.level_of(&name);
     let equipment = Equipment {
@@ -90,7 +96,8 @@ fn run_with(description: NodeDescription, command_line: impl Iterator<Item = Str
         logger: Logger::new(name, level, arguments.console),
         rosout: arguments.rosout,
         checkpoint,
-        publish_over_network: over_network.to_vec(),
+        publish_over_network,
+        parameters: ParameterServer::new(full, descriptors, parameters),
     };
     let mut process = Process::new(domain)?;
     let node = connect(core, 0, &names, equipment, &mut process.connections())?;

@@ -1,10 +1,12 @@
 //! Opening all that a core's interface names.
 
+use super::parameters::NodeParameters;
 use super::subscription::Reading;
 use super::{Caller, Node, Ports, Publication, Subscription, Wake};
 use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::log::Logger;
+use crate::parameters::ParameterServer;
 use crate::stream::Stream;
 use crate::transport::TransportError;
 use crate::transport::dds::{Participant, TopicName, full_name};
@@ -27,12 +29,17 @@ pub(crate) struct Connections<'a> {
 }
 
 impl Connections<'_> {
-    fn token(&mut self, node: usize, wake: Wake) -> Token {
+    pub(super) fn token(&mut self, node: usize, wake: Wake) -> Token {
         self.wakes.push(Some((node, wake)));
         Token(self.wakes.len() - 1)
     }
 
-    fn register(&mut self, node: usize, wake: Wake, source: &mut dyn event::Source) -> Result<(), TransportError> {
+    pub(super) fn register(
+        &mut self,
+        node: usize,
+        wake: Wake,
+        source: &mut dyn event::Source,
+    ) -> Result<(), TransportError> {
         let token = self.token(node, wake);
         source
             .register(self.registry, token, Interest::READABLE)
@@ -48,6 +55,7 @@ pub(crate) struct Equipment {
     pub(crate) checkpoint: Checkpoint,
     /// Topics that also go over the network although they are meant for this host; `*` means all.
     pub(crate) publish_over_network: Vec<String>,
+    pub(crate) parameters: ParameterServer,
 }
 
 /// Connects `core`, the node number `index` of the process.
@@ -100,6 +108,7 @@ pub(crate) fn connect(
         .registry
         .try_clone()
         .map_err(|source| TransportError::System { what: "cannot share the event loop", source })?;
+    let parameters = NodeParameters::open(equipment.parameters, &node, index, to)?;
     let ports = Ports {
         clock: equipment.clock,
         logger: equipment.logger,
@@ -114,7 +123,7 @@ pub(crate) fn connect(
         broken: Vec::new(),
         exit: None,
     };
-    Ok(Node { core, subscriptions, clock, ports })
+    Ok(Node { core, subscriptions, clock, parameters, ports })
 }
 
 /// Late joiners get the last lines; as many as rclcpp keeps.

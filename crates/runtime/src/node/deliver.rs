@@ -22,6 +22,7 @@ impl Node {
 
     /// The first event of a life.
     pub(crate) fn start(&mut self) {
+        self.tell_parameters();
         self.handle(Event::Started);
     }
 
@@ -38,6 +39,7 @@ impl Node {
             Wake::Requests(service) => self.take_requests(service),
             Wake::Responses(client) => self.take_responses(client),
             Wake::Stream(stream) => self.take_bytes(stream),
+            Wake::Parameters(service) => self.take_parameter_requests(service),
         }
     }
 
@@ -94,7 +96,7 @@ impl Node {
 
     /// Sends what waits for room on the network; true when nothing waits any longer.
     pub(crate) fn flush(&mut self) -> bool {
-        self.ports.flush()
+        self.parameters.flush() & self.ports.flush()
     }
 
     /// Gives last words time to leave, at most until `deadline`.

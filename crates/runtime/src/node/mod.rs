@@ -3,6 +3,7 @@
 mod caller;
 mod connect;
 mod deliver;
+mod parameters;
 mod ports;
 mod publication;
 mod subscription;
@@ -13,6 +14,7 @@ pub(crate) use ports::Ports;
 pub(crate) use publication::Publication;
 pub(crate) use subscription::Subscription;
 
+use parameters::NodeParameters;
 use trench_core::NodeCore;
 
 /// A running node.
@@ -20,6 +22,7 @@ pub(crate) struct Node {
     core: Box<dyn NodeCore>,
     subscriptions: Vec<Subscription>,
     clock: Option<Subscription>,
+    parameters: NodeParameters,
     ports: Ports,
 }
 
@@ -36,4 +39,6 @@ pub(crate) enum Wake {
     Responses(usize),
     /// A byte stream.
     Stream(usize),
+    /// One of the parameter services.
+    Parameters(usize),
 }

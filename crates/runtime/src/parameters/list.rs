@@ -27,7 +27,8 @@ fn is_wanted(name: &str, request: &ListParametersRequest) -> bool {
         return deep_enough(name);
     }
     request.prefixes.iter().any(|prefix| {
-        name == prefix || name.strip_prefix(prefix.as_str()).and_then(|rest| rest.strip_prefix('.')).is_some_and(deep_enough)
+        name == prefix
+            || name.strip_prefix(prefix.as_str()).and_then(|rest| rest.strip_prefix('.')).is_some_and(deep_enough)
     })
 }
 

@@ -61,7 +61,9 @@ impl ParameterServer {
         match service {
             ParameterService::Describe => {
                 let names = DescribeParametersRequest::decode(request)?.names;
-                plain(&DescribeParametersResponse { descriptors: names.iter().map(|name| self.describe(name)).collect() })
+                plain(&DescribeParametersResponse {
+                    descriptors: names.iter().map(|name| self.describe(name)).collect(),
+                })
             }
             ParameterService::Get => {
                 let names = GetParametersRequest::decode(request)?.names;
@@ -102,8 +104,12 @@ impl ParameterServer {
 
     fn event(&self, at: RosTime, changed_parameters: Vec<Parameter>) -> Option<ParameterEvent> {
         let node = self.node.clone();
-        (!changed_parameters.is_empty())
-            .then(|| ParameterEvent { stamp: at.into(), node, changed_parameters, ..Default::default() })
+        (!changed_parameters.is_empty()).then(|| ParameterEvent {
+            stamp: at.into(),
+            node,
+            changed_parameters,
+            ..Default::default()
+        })
     }
 
     /// A parameter that does not exist is described by its name alone, as rclcpp does where it may not refuse.
