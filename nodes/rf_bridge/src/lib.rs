@@ -1,1 +1,31 @@
 //! Carries wheel commands to the robots and telemetry back over the radio base station's serial port.
+//!
+//! | stage | where |
+//! |---|---|
+//! | command accepted: writer, numbers, stamp | `robot` |
+//! | twist to wheel speeds, speeds below the motors' minimum | `drive`, `dither` |
+//! | one broadcast a camera frame, ages | `broadcast`, `downlink` |
+//! | emergency stop and reset | `stop`, `stopping` |
+//! | telemetry to topics | `uplink`, `report`, `monitor`, `odometry` |
+//!
+//! Architecture invariant: no command leaves this node older than its age limits (invariant 8): what is old, broken or
+//! not wanted in the present run state becomes silence or zero.
+
+mod broadcast;
+mod core;
+mod diagnosis;
+mod dither;
+mod downlink;
+mod drive;
+mod interface;
+mod monitor;
+mod odometry;
+mod report;
+mod robot;
+mod settings;
+mod stop;
+mod stopping;
+mod uplink;
+
+pub use crate::core::RfBridge;
+pub use interface::description;

@@ -1,0 +1,80 @@
+//! Commands to frames: one broadcast a camera frame, nothing old, nothing while not running.
+
+use crate::core::RfBridge;
+use crate::robot::{Order, Robot};
+use trench_core::{Sink, Times};
+use trench_radio::{Commands, Payload, Wheels};
+
+impl RfBridge {
+    pub(crate) fn driving(&self) -> bool {
+        !self.stop.active() && (self.running || !self.tuning.needs_run_state)
+    }
+
+    /// A command came in: send at once if it was the last of its camera frame, else wait a moment for the others.
+    pub(crate) fn gather(&mut self, at: Times, sink: &mut dyn Sink) {
+        if !self.driving() {
+            self.robots.iter_mut().for_each(Robot::halt);
+            return;
+        }
+        let mut stamps = self.robots.iter().filter(|robot| robot.expected(at.steady)).map(Robot::waiting);
+        let first = stamps.next().flatten();
+        let complete = first.is_some() && stamps.all(|stamp| stamp == first);
+        let due = if complete { at.steady } else { at.steady.plus_seconds(self.tuning.gather) };
+        // A busy line makes no frame wait behind another: the newest commands go out when it is free.
+        let due = due.max(self.downlink.free_at());
+        self.gathered_at = Some(self.gathered_at.map_or(due, |earlier| earlier.min(due)));
+        if self.gathered_at.is_some_and(|due| due <= at.steady) {
+            self.broadcast(at, sink);
+        }
+    }
+
+    /// Sends one frame that tells every robot what it needs to be told.
+    pub(crate) fn broadcast(&mut self, at: Times, sink: &mut dyn Sink) {
+        self.gathered_at = None;
+        self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
+        if !self.open {
+            self.robots.iter_mut().for_each(Robot::halt);
+            return;
+        }
+        let driving = self.driving();
+        let transport = self.downlink.duration(self.robots.len()) + self.tuning.radio_delay;
+        let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
+        for robot in &mut self.robots {
+            if !driving {
+                robot.halt();
+            }
+            let slot = &mut commands.wheels[usize::from(robot.id)];
+            match robot.order(at.steady, transport, &self.tuning) {
+                Order::Drive(wheels, left) => {
+                    *slot = Some(wheels);
+                    validity = validity.min(left);
+                }
+                Order::Stop => *slot = Some(Wheels::STOP),
+                Order::Silence => continue,
+            }
+            robot.monitor.sent += 1;
+        }
+        commands.validity_ms = (validity * 1e3) as u8;
+        self.transmit(at, Payload::Commands(commands), sink);
+    }
+
+    pub(crate) fn transmit(&mut self, at: Times, payload: Payload, sink: &mut dyn Sink) {
+        if self.downlink.extend_promise() {
+            self.checkpoint(sink);
+        }
+        self.downlink.send(at.steady, payload, sink);
+    }
+
+    pub(crate) fn checkpoint(&self, sink: &mut dyn Sink) {
+        let mut bytes = [0; 9];
+        bytes[..8].copy_from_slice(&self.downlink.promised().to_le_bytes());
+        bytes[8] = u8::from(self.stop.active());
+        sink.checkpoint(&bytes);
+    }
+
+    /// Everybody stands still, now.
+    pub(crate) fn halt(&mut self, at: Times, sink: &mut dyn Sink) {
+        self.robots.iter_mut().for_each(Robot::halt);
+        self.broadcast(at, sink);
+    }
+}

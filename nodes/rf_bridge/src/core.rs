@@ -1,0 +1,162 @@
+//! The node core: what each event leads to.
+
+use crate::downlink::{Downlink, STREAM};
+use crate::interface::{COMMANDS, DIAGNOSTICS, EMERGENCY_STOP, RUN_STATE};
+use crate::robot::Robot;
+use crate::settings::Tuning;
+use crate::stop::EmergencyStop;
+use trench_config::{ConfigError, Parameters};
+use trench_core::{Condition, Event, Health, Interface, Level, NodeCore, Sink, Source, Steady, Times};
+use trench_msgs::Message;
+use trench_msgs::cdr::CdrError;
+use trench_msgs::geometry_msgs::{Twist, TwistStamped};
+use trench_msgs::msg::RunState;
+use trench_msgs::std_msgs::Bool;
+use trench_radio::{ErrorCounts, StreamDecoder};
+
+/// The bridge.
+pub struct RfBridge {
+    pub(crate) interface: Interface,
+    pub(crate) tuning: Tuning,
+    pub(crate) ranges: usize,
+    pub(crate) stamped: bool,
+    pub(crate) robots: Vec<Robot>,
+    pub(crate) downlink: Downlink,
+    pub(crate) decoder: StreamDecoder,
+    pub(crate) errors: ErrorCounts,
+    pub(crate) open: bool,
+    pub(crate) running: bool,
+    pub(crate) stop: EmergencyStop,
+    pub(crate) reset_until: Option<Steady>,
+    /// When the frame that is being gathered goes out.
+    pub(crate) gathered_at: Option<Steady>,
+    pub(crate) heartbeat_at: Steady,
+    pub(crate) repeat_at: Option<Steady>,
+    pub(crate) refused: u64,
+    pub(crate) health: Health,
+}
+
+impl RfBridge {
+    fn take(
+        &mut self,
+        at: Times,
+        port: usize,
+        source: Source,
+        cdr: &[u8],
+        sink: &mut dyn Sink,
+    ) -> Result<(), CdrError> {
+        match port {
+            RUN_STATE => {
+                let running = RunState::decode(cdr)?.state == RunState::RUNNING;
+                if self.running && !running {
+                    self.halt(at, sink);
+                }
+                self.running = running;
+            }
+            EMERGENCY_STOP => {
+                if self.stop.hear(source.gid, Bool::decode(cdr)?.data) {
+                    self.begin_stop(at, sink);
+                }
+            }
+            _ => {
+                let (twist, stamp) = if self.stamped {
+                    let command = TwistStamped::decode(cdr)?;
+                    let stamp = (&command.header.stamp).into();
+                    (command.twist, Some(stamp))
+                } else {
+                    (Twist::decode(cdr)?, None)
+                };
+                let Some(robot) = self.robots.get_mut(port - COMMANDS) else { return Ok(()) };
+                match robot.accept(at, source, &twist, stamp, &self.tuning) {
+                    Ok(()) => self.gather(at, sink),
+                    Err(refusal) => {
+                        let text = format!("a command for {} was dropped: {refusal}", robot.name);
+                        self.refuse(text, sink);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn refuse(&mut self, text: String, sink: &mut dyn Sink) {
+        self.refused += 1;
+        if self.refused == 1 {
+            sink.log(Level::Warn, &text);
+        }
+        self.health.set("messages", Condition::Warn, text);
+        self.health.value("messages", "dropped", self.refused);
+    }
+
+    fn wake(&mut self, at: Times, sink: &mut dyn Sink) {
+        if self.repeat_at.is_some_and(|due| due <= at.steady) {
+            self.repeat(at, sink);
+        }
+        if self.gathered_at.is_some_and(|due| due <= at.steady) || self.heartbeat_at <= at.steady {
+            self.broadcast(at, sink);
+            self.diagnose(at.steady);
+        }
+    }
+
+    fn stream(&mut self, at: Times, open: bool, sink: &mut dyn Sink) {
+        self.open = open;
+        self.decoder.reset();
+        if open {
+            sink.log(Level::Info, "the serial port is open");
+            self.halt(at, sink);
+            self.repeat(at, sink);
+        } else {
+            sink.log(Level::Error, "the serial port is gone: the robots stop by themselves");
+            self.robots.iter_mut().for_each(Robot::halt);
+        }
+        self.diagnose(at.steady);
+    }
+}
+
+impl NodeCore for RfBridge {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        match event {
+            Event::Started => {
+                self.downlink.start(at.ros);
+                self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
+                if self.stop.active() {
+                    self.begin_stop(at, sink);
+                }
+            }
+            Event::Message { port, source, cdr } => {
+                if let Err(error) = self.take(at, port, source, cdr, sink) {
+                    let topic = &self.interface.subscriptions[port].topic;
+                    let text = format!("a message on {topic} was dropped: {error}");
+                    self.refuse(text, sink);
+                }
+            }
+            Event::Request { service, id, .. } => {
+                let response = self.reset(at, sink);
+                sink.respond(service, id, &response);
+            }
+            Event::Bytes { stream: STREAM, data } => self.hear(at, data, sink),
+            Event::StreamState { stream: STREAM, open } => self.stream(at, open, sink),
+            Event::Matched { port: EMERGENCY_STOP, writers } => self.stop.writers(writers),
+            Event::Wakeup => self.wake(at, sink),
+            Event::Shutdown => {
+                self.running = false;
+                self.halt(at, sink);
+            }
+            _ => {}
+        }
+        self.health.publish(at, DIAGNOSTICS, sink);
+    }
+
+    fn next_wakeup(&self) -> Option<Steady> {
+        [Some(self.heartbeat_at), self.gathered_at, self.repeat_at].into_iter().flatten().min()
+    }
+
+    fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        self.tuning = Tuning::read(parameters)?;
+        Ok(())
+    }
+}

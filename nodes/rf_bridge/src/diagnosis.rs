@@ -1,0 +1,35 @@
+//! What the bridge says of itself on /diagnostics.
+
+use crate::core::RfBridge;
+use trench_core::{Condition, Steady};
+
+impl RfBridge {
+    /// Brings all parts up to date.
+    pub(crate) fn diagnose(&mut self, now: Steady) {
+        let (condition, text) =
+            if self.open { (Condition::Ok, "open") } else { (Condition::Error, "closed: nothing reaches the robots") };
+        self.health.set("serial port", condition, text);
+        self.health.value("serial port", "frames", self.decoder.frames());
+        for (name, count) in self.decoder.errors().iter().chain(self.errors.iter()) {
+            self.health.value("serial port", name, count);
+        }
+        let (condition, text) = match (self.stop.active(), self.driving()) {
+            (true, _) => (Condition::Error, "emergency stop: call ~/reset"),
+            (false, true) => (Condition::Ok, "driving"),
+            (false, false) => (Condition::Ok, "not running: commands are zero"),
+        };
+        self.health.set("commands", condition, text);
+        self.health.value("commands", "expired", self.robots.iter().map(|robot| robot.expired).sum::<u64>());
+        let silent: Vec<&str> = self
+            .robots
+            .iter()
+            .filter(|robot| !robot.monitor.up(now, self.tuning.silence))
+            .map(|robot| robot.name.as_str())
+            .collect();
+        if silent.is_empty() {
+            self.health.set("links", Condition::Ok, "all robots are heard");
+        } else {
+            self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", ")));
+        }
+    }
+}

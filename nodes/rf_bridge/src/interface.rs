@@ -1,0 +1,104 @@
+//! How the bridge is made and what it is connected to.
+
+use crate::core::RfBridge;
+use crate::downlink::Downlink;
+use crate::robot::Robot;
+use crate::settings::{Settings, descriptors};
+use crate::stop::EmergencyStop;
+use trench_config::Parameters;
+use trench_core::{
+    Advertise, ByteStream, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Serve,
+    StartError, Steady, Subscribe, resolve_name,
+};
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::geometry_msgs::{Twist, TwistStamped};
+use trench_msgs::msg::{LinkStatus, RunState};
+use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::sensor_msgs::{BatteryState, Range};
+use trench_msgs::std_msgs::Bool;
+use trench_msgs::std_srvs::Trigger;
+use trench_msgs::{Message, service_info};
+use trench_radio::{ErrorCounts, StreamDecoder};
+
+pub(crate) const RUN_STATE: usize = 0;
+pub(crate) const EMERGENCY_STOP: usize = 1;
+/// The robots' cmd_vel follow from here on.
+pub(crate) const COMMANDS: usize = 2;
+
+pub(crate) const DIAGNOSTICS: usize = 0;
+/// Each robot's publications follow from here on: battery, odometry, link, ranges.
+pub(crate) const REPORTS: usize = 1;
+pub(crate) const BATTERY: usize = 0;
+pub(crate) const ODOMETRY: usize = 1;
+pub(crate) const LINK: usize = 2;
+pub(crate) const RANGES: usize = 3;
+
+/// The node as processes and the simulator make it.
+#[must_use]
+pub fn description() -> NodeDescription {
+    NodeDescription {
+        name: "rf_bridge",
+        about: "Carries wheel commands to the robots and telemetry back over the radio base station's serial port",
+        parameters: descriptors,
+        build,
+    }
+}
+
+fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let settings = Settings::read(parameters, files)?;
+    let (promised, stopped) = restored(context.checkpoint.as_deref());
+    Ok(Box::new(RfBridge {
+        interface: interface(&settings),
+        tuning: settings.tuning,
+        ranges: settings.ranges,
+        stamped: settings.stamped,
+        robots: settings.robots.iter().map(|(name, id)| Robot::new(name.clone(), *id)).collect(),
+        downlink: Downlink::new(settings.key, settings.baud, promised),
+        decoder: StreamDecoder::default(),
+        errors: ErrorCounts::default(),
+        open: false,
+        running: false,
+        stop: EmergencyStop::restored(stopped),
+        reset_until: None,
+        gathered_at: None,
+        heartbeat_at: Steady::default(),
+        repeat_at: None,
+        refused: 0,
+        health: Health::new(resolve_name("~", &context.namespace, &context.name)),
+    }))
+}
+
+/// The promised counter and the emergency stop of the last life: eight bytes and one.
+fn restored(checkpoint: Option<&[u8]>) -> (u64, bool) {
+    match checkpoint.and_then(|bytes| bytes.split_first_chunk::<8>()) {
+        Some((counter, rest)) => (u64::from_le_bytes(*counter), rest.first().is_some_and(|stopped| *stopped != 0)),
+        None => (0, false),
+    }
+}
+
+fn interface(settings: &Settings) -> Interface {
+    let subscribe = |topic: String, type_info, qos| Subscribe { topic, type_info, qos };
+    let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
+    let mut subscriptions = vec![
+        subscribe("/run_state".to_owned(), RunState::TYPE, Qos::LATCHED),
+        subscribe("/emergency_stop".to_owned(), Bool::TYPE, Qos::RELIABLE),
+    ];
+    let advertise =
+        |topic: String, type_info| Advertise { topic, type_info, qos: Qos::RELIABLE, local: Local::NetworkOnly };
+    let mut publications = vec![advertise("/diagnostics".to_owned(), DiagnosticArray::TYPE)];
+    for (name, _) in &settings.robots {
+        subscriptions.push(subscribe(format!("/{name}/cmd_vel"), command, Qos::RELIABLE));
+        publications.push(advertise(format!("/{name}/battery_state"), BatteryState::TYPE));
+        publications.push(advertise(format!("/{name}/wheel_odom"), Odometry::TYPE));
+        publications.push(advertise(format!("/{name}/link"), LinkStatus::TYPE));
+        let ranges = 0..settings.ranges;
+        publications.extend(ranges.map(|sensor| advertise(format!("/{name}/range/{sensor}"), Range::TYPE)));
+    }
+    Interface {
+        subscriptions,
+        publications,
+        services: vec![Serve { name: "~/reset".to_owned(), service: service_info::<Trigger>() }],
+        byte_streams: vec![ByteStream::Serial { path: settings.port.clone(), baud: settings.baud }],
+        ..Interface::default()
+    }
+}

@@ -1,0 +1,5 @@
+//! The bridge's process.
+
+fn main() -> std::process::ExitCode {
+    trench_runtime::run(rf_bridge::description())
+}

@@ -1,0 +1,164 @@
+//! One robot as the bridge knows it: who commands it, what, and since when.
+
+use crate::dither::Dither;
+use crate::drive::wheels;
+use crate::monitor::Monitor;
+use crate::odometry::WheelOdometry;
+use crate::settings::Tuning;
+use trench_core::{RosTime, Source, Steady, Times};
+use trench_msgs::geometry_msgs::Twist;
+use trench_radio::{WheelTimer, Wheels};
+
+/// A stamp this far ahead of the clock is no stamp, s.
+const FUTURE: f64 = 0.05;
+
+/// A robot without a command for this long is not waited for, s.
+const EXPECTED: f64 = 0.2;
+
+/// Why a command was not taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Refusal {
+    #[error("another publisher commands this robot")]
+    Master,
+    #[error("it is not a finite number")]
+    NotFinite,
+    #[error("it is beyond limits.linear or limits.angular")]
+    OutOfRange,
+    #[error("it is older than age.information")]
+    Old,
+    #[error("it is stamped in the future")]
+    Future,
+}
+
+/// A command that was taken.
+#[derive(Debug, Clone, Copy)]
+struct Command {
+    received: Steady,
+    stamp: Option<RosTime>,
+    /// Of the information it rests on, when it was received, s.
+    age: f64,
+    v: f64,
+    omega: f64,
+}
+
+/// What a frame says to one robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Order {
+    /// Turn the wheels, for so many seconds from the robot's receipt.
+    Drive(Wheels, f64),
+    /// Stand still.
+    Stop,
+    /// Nothing: it goes on with what it has.
+    Silence,
+}
+
+/// A robot.
+#[derive(Debug, Clone)]
+pub(crate) struct Robot {
+    pub(crate) name: String,
+    pub(crate) id: u8,
+    pub(crate) monitor: Monitor,
+    pub(crate) odometry: WheelOdometry,
+    /// Commands that were too old when the line was free.
+    pub(crate) expired: u64,
+    master: Option<([u8; 16], Steady)>,
+    command: Option<Command>,
+    driven_at: Option<Steady>,
+    dither: Dither,
+}
+
+impl Robot {
+    pub(crate) fn new(name: String, id: u8) -> Self {
+        Self {
+            name,
+            id,
+            monitor: Monitor::default(),
+            odometry: WheelOdometry::default(),
+            expired: 0,
+            master: None,
+            command: None,
+            driven_at: None,
+            dither: Dither::default(),
+        }
+    }
+
+    /// Takes a command. Each robot has one master: the publisher heard last, until it falls silent.
+    pub(crate) fn accept(
+        &mut self,
+        at: Times,
+        source: Source,
+        twist: &Twist,
+        stamp: Option<RosTime>,
+        tuning: &Tuning,
+    ) -> Result<(), Refusal> {
+        let master = self.master.filter(|(_, heard)| at.steady.seconds_since(*heard) <= tuning.silence);
+        if master.is_some_and(|(gid, _)| gid != source.gid) {
+            return Err(Refusal::Master);
+        }
+        let numbers =
+            [twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y, twist.angular.z];
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return Err(Refusal::NotFinite);
+        }
+        let (v, omega) = (twist.linear.x, twist.angular.z);
+        if v.abs() > tuning.max_v || omega.abs() > tuning.max_omega {
+            return Err(Refusal::OutOfRange);
+        }
+        // A stamp of zero is ROS's way to leave it out.
+        let stamp = stamp.filter(|stamp| stamp.0 != 0);
+        let age = stamp.map_or(tuning.unstamped_age, |stamp| at.ros.seconds_since(stamp));
+        if age < -FUTURE {
+            return Err(Refusal::Future);
+        }
+        if age > tuning.information_age {
+            return Err(Refusal::Old);
+        }
+        self.master = Some((source.gid, at.steady));
+        self.command = Some(Command { received: at.steady, stamp, age: age.max(0.0), v, omega });
+        Ok(())
+    }
+
+    /// Whether a command waits to be sent, and with which stamp.
+    pub(crate) fn waiting(&self) -> Option<Option<RosTime>> {
+        self.command.map(|command| command.stamp)
+    }
+
+    /// Whether a command may be expected in every camera frame.
+    pub(crate) fn expected(&self, now: Steady) -> bool {
+        self.master.is_some_and(|(_, heard)| now.seconds_since(heard) <= EXPECTED)
+    }
+
+    /// Forgets what it was told.
+    pub(crate) fn halt(&mut self) {
+        self.command = None;
+        self.driven_at = None;
+        self.dither.reset();
+    }
+
+    /// What the next frame tells it, `transport` seconds after which it arrives at the latest.
+    pub(crate) fn order(&mut self, now: Steady, transport: f64, tuning: &Tuning) -> Order {
+        let obeying = self.driven_at.is_some_and(|at| now.seconds_since(at) <= tuning.frame_age);
+        let Some(command) = self.command.take() else {
+            if obeying {
+                return Order::Silence;
+            }
+            self.halt();
+            return Order::Stop;
+        };
+        let waited = now.seconds_since(command.received);
+        let left = (tuning.information_age - command.age - waited - transport).min(tuning.frame_age);
+        if waited > tuning.command_age || left <= 0.0 {
+            self.expired += 1;
+            self.halt();
+            return Order::Stop;
+        }
+        let mut speeds = wheels(command.v, command.omega, tuning.half_axle, tuning.max_wheel_speed);
+        if tuning.dither {
+            speeds = self.dither.choose(now, speeds, tuning.frame_age);
+        }
+        self.driven_at = Some(now);
+        let [left_speed, right_speed] = speeds;
+        let wheels = Wheels { left: WheelTimer::from_speed(left_speed), right: WheelTimer::from_speed(right_speed) };
+        Order::Drive(wheels, left)
+    }
+}
