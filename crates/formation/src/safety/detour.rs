@@ -66,9 +66,15 @@ impl View<'_> {
     pub(super) fn detour(&self) -> Option<Detour> {
         let first = self.first_blocker(self.goal, 0)?;
         let (members, extents) = self.cluster(0, first);
-        let [right, left] = [Side::Right, Side::Left].map(|side| self.way_length(&extents[side as usize], side));
-        let order = if left + RIGHT_BIAS < right { [Side::Left, Side::Right] } else { [Side::Right, Side::Left] };
-        let target = order.into_iter().find_map(|side| self.tangent(side, members, extents))?;
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.tangent(side, members, extents));
+        let left_is_shorter = |right: Extent, left: Extent| {
+            self.way_length(&left, Side::Left) + RIGHT_BIAS < self.way_length(&right, Side::Right)
+        };
+        let target = match (right, left) {
+            (Some(right), Some(left)) if left_is_shorter(right, left) => left.point,
+            (Some(only), _) | (None, Some(only)) => only.point,
+            (None, None) => return None,
+        };
         let direction = self.along_barriers((target - self.centre).try_normalize(0.0)?);
         Some(Detour { direction, blocker: self.constraint(first) })
     }
@@ -83,16 +89,16 @@ impl View<'_> {
         direction
     }
 
-    /// The tangent point on one side of a cluster and of all that blocks the way to it; `None` if that side is closed.
-    fn tangent(&self, side: Side, mut members: u128, mut extents: [Extent; 2]) -> Option<Vector2<f64>> {
+    /// The tangent on one side of a cluster and of all that blocks the way to it; `None` if that side is closed.
+    fn tangent(&self, side: Side, mut members: u128, mut extents: [Extent; 2]) -> Option<Extent> {
         for _ in 0..MOST_ROUNDS {
             if extents[1].angle - extents[0].angle >= TAU || !self.is_open(side, members) {
                 return None;
             }
-            let target = extents[side as usize].point;
-            match self.first_blocker(target, members) {
+            let extent = extents[side as usize];
+            match self.first_blocker(extent.point, members) {
                 Some(next) => (members, extents) = self.cluster(members, next),
-                None => return Some(target),
+                None => return Some(extent),
             }
         }
         None
