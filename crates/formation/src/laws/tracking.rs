@@ -59,6 +59,12 @@ pub struct Tracked {
 impl Tracking {
     /// The command for a robot at `pose`; `holding` is what the last call returned, false at first.
     pub fn track(&self, pose: Pose, goal: GoalMotion, holding: bool) -> Tracked {
+        self.track_within(pose, goal, holding, f64::INFINITY)
+    }
+
+    /// [`Self::track`] at no more than `max_speed` (m/s): |w| is cut, not the command, and psi' is that of the slower motion, so
+    /// that phi still obeys (4.8) exactly. A goal point that is slower than `max_speed` is still caught.
+    pub fn track_within(&self, pose: Pose, goal: GoalMotion, holding: bool, max_speed: f64) -> Tracked {
         let Robust { k1, .. } = self.gains;
         let error = goal.position - pose.position();
         let distance = libm::hypot(error.x, error.y);
@@ -69,7 +75,7 @@ impl Tracking {
             return Tracked { twist: Twist::ZERO, distance, misalignment: 0.0, lyapunov, holding: true };
         }
         let misalignment = wrap(pose.theta - libm::atan2(wanted.y, wanted.x));
-        let v = speed * libm::cos(misalignment);
+        let v = speed.min(max_speed) * libm::cos(misalignment);
         let error_rate = goal.velocity - v * pose.heading();
         let wanted_rate = goal.acceleration + k1 * error_rate;
         let direction_rate = wanted.perp(&wanted_rate) / (speed * speed);
