@@ -1,17 +1,13 @@
 //! The codec of every type, against an independent writer of CDR.
 
+#[cfg(test)]
 mod support;
 
-use support::{Random, Writer};
+use support::{Random, Writer, library};
 use trench_msgs::dynamic::Schema;
 use trench_msgs::{Message, for_every_message};
-use trench_rosidl::Library;
 
 const SEEDS: std::ops::Range<u64> = 0..12;
-
-fn library<M: Message>() -> Library {
-    Library::from_ros2msg(M::TYPE.name, M::TYPE.definition).expect("our own definitions are understood")
-}
 
 #[test]
 fn both_byte_orders_are_read_and_written_little_endian() {

@@ -14,8 +14,8 @@ fn vectors() -> BTreeMap<&'static str, Vec<u8>> {
 }
 
 fn bytes(hex: &str) -> Vec<u8> {
-    let digits = hex.as_bytes().chunks(2).map(|pair| std::str::from_utf8(pair).expect("ASCII"));
-    digits.map(|pair| u8::from_str_radix(pair, 16).expect("hexadecimal")).collect()
+    let digits: Vec<u8> = hex.chars().filter_map(|digit| digit.to_digit(16)).map(|digit| digit as u8).collect();
+    digits.chunks_exact(2).map(|pair| 16 * pair[0] + pair[1]).collect()
 }
 
 /// Leaf `count` as the script fills it.

@@ -14,7 +14,9 @@ mod hash;
 mod library;
 mod literal;
 mod parse;
+mod primitive;
 mod ros2msg;
+mod service;
 
 pub use definition::Definition;
 pub use error::Error;

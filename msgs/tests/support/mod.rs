@@ -1,8 +1,14 @@
 //! An independent writer of CDR: random messages of any definition, with what a reader should find in them.
 
+use trench_msgs::Message;
 use trench_rosidl::Library;
 use trench_rosidl::definition::{Base, Definition, Field, Primitive, Shape};
 use trench_rosidl::dynamic::Value;
+
+/// The definitions of a message and all that it contains.
+pub(crate) fn library<M: Message>() -> Library {
+    Library::from_ros2msg(M::TYPE.name, M::TYPE.definition).expect("our own definitions are understood")
+}
 
 /// The generator SplitMix64.
 pub(crate) struct Random(pub(crate) u64);
