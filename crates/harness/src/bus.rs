@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
-use trench_core::{ByteStream, RequestId, Source, resolve_name};
+use trench_core::arguments::{NameKind, Names};
+use trench_core::{ByteStream, RequestId, Source};
 
 /// One end of something: the instance and the index into the list of its interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,36 +58,25 @@ pub enum BusError {
     },
 }
 
-/// Names a core's interface on the bus.
-pub(crate) struct Naming<'a> {
-    pub(crate) instance: usize,
-    pub(crate) namespace: &'a str,
-    pub(crate) node: &'a str,
-    pub(crate) remaps: &'a BTreeMap<String, String>,
-}
-
-impl Naming<'_> {
-    pub(crate) fn resolve(&self, name: &str) -> String {
-        let absolute = resolve_name(name, self.namespace, self.node);
-        let remapped = self.remaps.get(name).or_else(|| self.remaps.get(&absolute));
-        remapped.map_or(absolute, |to| resolve_name(to, self.namespace, self.node))
-    }
-}
-
 impl Bus {
     /// Puts all ends of an interface on the bus.
-    pub(crate) fn join(&mut self, naming: &Naming<'_>, interface: &trench_core::Interface) -> Result<(), BusError> {
-        let end = |index| End { instance: naming.instance, index };
+    pub(crate) fn join(
+        &mut self,
+        instance: usize,
+        names: &Names<'_>,
+        interface: &trench_core::Interface,
+    ) -> Result<(), BusError> {
+        let end = |index| End { instance, index };
         for (index, subscribe) in interface.subscriptions.iter().enumerate() {
-            let topic = self.topic(naming.resolve(&subscribe.topic), subscribe.type_info.name)?;
+            let topic = self.topic(names.resolve(&subscribe.topic, NameKind::Topic), subscribe.type_info.name)?;
             topic.readers.push(end(index));
         }
         for (index, advertise) in interface.publications.iter().enumerate() {
-            let topic = self.topic(naming.resolve(&advertise.topic), advertise.type_info.name)?;
+            let topic = self.topic(names.resolve(&advertise.topic, NameKind::Topic), advertise.type_info.name)?;
             topic.writers.push(end(index));
         }
         for (index, serve) in interface.services.iter().enumerate() {
-            self.servers.insert(naming.resolve(&serve.name), end(index));
+            self.servers.insert(names.resolve(&serve.name, NameKind::Service), end(index));
         }
         for (index, stream) in interface.byte_streams.iter().enumerate() {
             if let ByteStream::PseudoTerminal { link } = stream {

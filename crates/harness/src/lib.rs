@@ -3,7 +3,10 @@
 //! The one place that knows all cores (invariant 5).
 
 mod bus;
+pub mod catalog;
+mod load;
 mod lockstep;
 
 pub use bus::BusError;
+pub use load::{LoadError, Loaded, load};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};

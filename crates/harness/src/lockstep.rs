@@ -3,9 +3,9 @@
 //! Time stands still while events are handled: what a core publishes arrives at its readers at the same instant, in the
 //! order of publication. Between instants time jumps to the earliest wakeup. Two runs are equal byte for byte.
 
-use crate::bus::{Bus, BusError, Delivery, End, Naming};
-use std::collections::BTreeMap;
+use crate::bus::{Bus, BusError, Delivery, End};
 use std::rc::Rc;
+use trench_core::arguments::{NameKind, Names, Remap};
 use trench_core::{Action, Advertise, ByteStream, Event, Level, NodeCore, Outbox, RosTime, Source, Steady, Times};
 
 /// ROS time at the start of a run: 2020-01-01, so that stamps look like stamps.
@@ -13,12 +13,10 @@ const EPOCH: RosTime = RosTime(1_577_836_800_000_000_000);
 
 /// A core with its place in the graph.
 pub struct Instance {
-    /// Its namespace, absolute.
-    pub namespace: String,
-    /// Its node name.
-    pub name: String,
-    /// Topic and service names replaced, as given by `-r`.
-    pub remaps: BTreeMap<String, String>,
+    /// The name its executable gives it.
+    pub default_name: String,
+    /// Its `-r` rules: name, namespace, topics and services.
+    pub remaps: Vec<Remap>,
     /// The core.
     pub core: Box<dyn NodeCore>,
 }
@@ -88,14 +86,13 @@ impl Lockstep {
     }
 
     fn seat(&mut self, index: usize, instance: Instance) -> Result<(), BusError> {
-        let Instance { namespace, name, remaps, core } = &instance;
-        let naming = Naming { instance: index, namespace, node: name, remaps };
-        let interface = core.interface();
-        self.bus.join(&naming, interface)?;
-        let topics = interface.publications.iter().map(|topic| (naming.resolve(&topic.topic), topic.clone()));
-        let topics = topics.collect();
-        let clients = interface.clients.iter().map(|serve| naming.resolve(&serve.name)).collect();
-        let label = naming.resolve("~");
+        let names = Names::new(&instance.remaps, &instance.default_name);
+        let interface = instance.core.interface();
+        self.bus.join(index, &names, interface)?;
+        let topic = |topic: &Advertise| (names.resolve(&topic.topic, NameKind::Topic), topic.clone());
+        let topics = interface.publications.iter().map(topic).collect();
+        let clients = interface.clients.iter().map(|serve| names.resolve(&serve.name, NameKind::Service)).collect();
+        let label = names.resolve("~", NameKind::Topic);
         self.seats.push(Seat { instance, label, topics, clients, ended: false });
         Ok(())
     }

@@ -88,8 +88,7 @@ fn same_robots(assignment: &Assignment, robots: &[String]) -> bool {
 
 fn interface() -> Interface {
     let subscribe = |topic: &str, type_info| Subscribe { topic: topic.to_owned(), type_info, qos: Qos::RELIABLE };
-    let advertise =
-        |topic: &str, type_info, qos, local| Advertise { topic: topic.to_owned(), type_info, qos, local };
+    let advertise = |topic: &str, type_info, qos, local| Advertise { topic: topic.to_owned(), type_info, qos, local };
     let serve = |name: &str| Serve { name: format!("~/{name}"), service: service_info::<Trigger>() };
     Interface {
         subscriptions: vec![subscribe("/team_state", TeamState::TYPE), subscribe("/target", Odometry::TYPE)],
@@ -190,9 +189,10 @@ impl LeaderAssignment {
 
     fn unlocalised(&self) -> Vec<&str> {
         let tracked = |name: &&String| {
-            self.team.iter().flat_map(|team| &team.robots).any(|robot| {
-                robot.name == **name && robot.status == RobotState::STATUS_TRACKED
-            })
+            self.team
+                .iter()
+                .flat_map(|team| &team.robots)
+                .any(|robot| robot.name == **name && robot.status == RobotState::STATUS_TRACKED)
         };
         self.settings.robots.iter().filter(|name| !tracked(name)).map(String::as_str).collect()
     }
@@ -286,7 +286,11 @@ impl NodeCore for LeaderAssignment {
             Event::Wakeup => self.wakeup = Some(at.steady.plus_seconds(1.0)),
             _ => {}
         }
-        self.health.set("run", Condition::Ok, format!("{}: {}", crate::state_name(self.run.state()), self.run.reason()));
+        self.health.set(
+            "run",
+            Condition::Ok,
+            format!("{}: {}", crate::state_name(self.run.state()), self.run.reason()),
+        );
         self.health.publish(at, DIAGNOSTICS, sink);
     }
 

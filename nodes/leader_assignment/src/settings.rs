@@ -35,7 +35,8 @@ impl Settings {
         let plan = trench_plan::parse(path, &files.read("formation_file", path)?)?;
         let robots = robots(parameters)?;
         if robots.len() > plan.places() {
-            let problem = format!("{} robots, but the formation {} has {} places", robots.len(), plan.name, plan.places());
+            let problem =
+                format!("{} robots, but the formation {} has {} places", robots.len(), plan.name, plan.places());
             return Err(parameters.error("robots", problem, "give the queues more vertices or name fewer robots"));
         }
         let target_age_limit = match plan.frame {

@@ -1,0 +1,105 @@
+//! From a resolved launch file to instances: the same files that start processes drive the simulator.
+
+use crate::catalog;
+use crate::lockstep::Instance;
+use std::path::Path;
+use trench_config::params::{Source, resolve};
+use trench_config::{ConfigError, ParameterDescriptor};
+use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
+use trench_core::{Files, NodeContext, NodeDescription, StartError};
+use trench_launch::{Plan, Process};
+
+/// Why a launch file cannot be driven in lock-step.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// A node's command line is wrong.
+    #[error("{label}: {error}")]
+    Usage {
+        /// The process.
+        label: String,
+        /// What is wrong.
+        error: UsageError,
+    },
+    /// A node's parameters are wrong.
+    #[error("{label}: {}", errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Parameters {
+        /// The process.
+        label: String,
+        /// All that is wrong.
+        errors: Vec<ConfigError>,
+    },
+    /// A core refuses to start.
+    #[error("{label}: {error}")]
+    Start {
+        /// The process.
+        label: String,
+        /// Why.
+        error: StartError,
+    },
+}
+
+/// The cores of a launch file, and the processes that are none of ours and stay out of the simulation.
+pub struct Loaded {
+    /// The cores, in the order of the file.
+    pub instances: Vec<Instance>,
+    /// Labels of what was left out.
+    pub left_out: Vec<String>,
+}
+
+/// Makes the cores of all nodes that `plan` starts. `seed` goes to every core's context.
+///
+/// # Errors
+/// At the first node that would not start as a process either.
+pub fn load(plan: &Plan, files: &dyn Files, seed: u64) -> Result<Loaded, LoadError> {
+    let mut loaded = Loaded { instances: Vec::new(), left_out: Vec::new() };
+    for process in &plan.processes {
+        let program = process.argv.first().map(Path::new).and_then(Path::file_name);
+        match program.and_then(|name| name.to_str()).and_then(catalog::node) {
+            Some(node) => loaded.instances.push(instance(node, process, files, seed)?),
+            None => loaded.left_out.push(process.label.clone()),
+        }
+    }
+    Ok(loaded)
+}
+
+fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u64) -> Result<Instance, LoadError> {
+    let label = || process.label.clone();
+    let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
+        .map_err(|error| LoadError::Usage { label: label(), error })?;
+    let names = Names::new(&arguments.remaps, node.name);
+    let parameters = |errors| LoadError::Parameters { label: label(), errors };
+    let texts = texts(&arguments, process, files).map_err(|error| parameters(vec![error]))?;
+    let mut descriptors = (node.parameters)();
+    // Every process has it; in lock-step there is no network to publish over.
+    descriptors.push(ParameterDescriptor::string_list("publish_over_network", &[], "topics to send to viewers too"));
+    let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
+    let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
+    let context =
+        NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
+    let core =
+        (node.build)(&context, &resolved, files).map_err(|error| LoadError::Start { label: label(), error })?;
+    Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
+}
+
+/// The text behind each parameter source: of the files that the launcher would write, or that are there.
+fn texts(arguments: &Arguments, process: &Process, files: &dyn Files) -> Result<Vec<String>, ConfigError> {
+    let text = |source: &ParameterSource| match source {
+        ParameterSource::Override { .. } => Ok(String::new()),
+        ParameterSource::File(path) => {
+            match process.parameter_files.iter().find(|file| file.path == Path::new(path)) {
+                Some(file) => Ok(file.text.clone()),
+                None => files.read("--params-file", path),
+            }
+        }
+    };
+    arguments.parameters.iter().map(text).collect()
+}
+
+fn as_source<'a>((source, text): (&'a ParameterSource, &'a String)) -> Source<'a> {
+    match source {
+        ParameterSource::File(name) => Source::File { name, text },
+        ParameterSource::Override { node, name, value } => {
+            Source::Override { node: node.as_deref(), name, value }
+        }
+    }
+}

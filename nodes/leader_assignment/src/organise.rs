@@ -1,0 +1,208 @@
+//! Robots to queues and places, teams to chains.
+
+use trench_formation::Vector2;
+use trench_formation::assignment::{keeps, solve, split};
+use trench_formation::chain::{Candidate, order};
+use trench_msgs::msg::{Assignment, Member};
+use trench_plan::Plan;
+
+/// A new assignment must be shorter by this much, m^2 a robot, besides the relative margin.
+const NOISE: f64 = 0.01;
+
+/// A robot with its place and its rank.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Seated {
+    /// Its name.
+    pub robot: String,
+    /// Index of its queue.
+    pub queue: usize,
+    /// Index of its place in the queue.
+    pub place: usize,
+    /// Its rank in the queue's chain, from 1.
+    pub rank: usize,
+    /// The robot ahead of it; none for the chain leader.
+    pub leader: Option<String>,
+}
+
+impl Seated {
+    /// Its line in an Assignment.
+    #[must_use]
+    pub fn member(&self) -> Member {
+        Member {
+            robot: self.robot.clone(),
+            queue: self.queue as u32,
+            rank: self.rank as u32,
+            place: self.place as u32,
+            leader: self.leader.clone().unwrap_or_default(),
+        }
+    }
+
+    /// The seats an Assignment tells of; none if it does not fit the plan.
+    #[must_use]
+    pub fn of_assignment(plan: &Plan, assignment: &Assignment) -> Vec<Self> {
+        let seat = |member: &Member| {
+            let (queue, place) = (member.queue as usize, member.place as usize);
+            let fits = plan.queues.get(queue).is_some_and(|queue| place < queue.places.len());
+            let leader = (!member.leader.is_empty()).then(|| member.leader.clone());
+            fits.then(|| Self { robot: member.robot.clone(), queue, place, rank: member.rank as usize, leader })
+        };
+        assignment.members.iter().map(seat).collect::<Option<Vec<_>>>().unwrap_or_default()
+    }
+}
+
+/// Gives every robot (name and position, m, formation's frame) a place: queues get robots by their shares, places so that
+/// the sum of squared distances to the starts of the virtual points is least. The present seats stay unless the best
+/// ones are shorter by the fraction `keep_margin`. Ordered by queue, then rank.
+///
+/// Robots beyond the places of the plan get none; the settings refuse such teams.
+#[must_use]
+pub fn organise(plan: &Plan, robots: &[(String, Vector2<f64>)], present: &[Seated], keep_margin: f64) -> Vec<Seated> {
+    let open = open_places(plan, robots.len());
+    let robots = &robots[..robots.len().min(open.len())];
+    let start = |(queue, place): (usize, usize)| {
+        let queue = &plan.queues[queue];
+        queue.curve.at(queue.places[place].start).point
+    };
+    let starts: Vec<Vector2<f64>> = open.iter().map(|&place| start(place)).collect();
+    let cost = |robot: usize, place: usize| (robots[robot].1 - starts[place]).norm_squared();
+    let best = solve(robots.len(), open.len(), cost);
+    let kept = present_columns(robots, &open, present).filter(|columns| {
+        let present: f64 = columns.iter().enumerate().map(|(robot, &place)| cost(robot, place)).sum();
+        keeps(present, best.cost, keep_margin, NOISE * robots.len() as f64)
+    });
+    let columns = kept.unwrap_or(best.column_of);
+    let seats: Vec<(usize, usize)> = columns.into_iter().map(|column| open[column]).collect();
+    (0..plan.queues.len()).flat_map(|queue| chain(plan, queue, robots, &seats)).collect()
+}
+
+/// The places that are filled when `robots` robots take part: of each queue as many as its share gives it, then whatever
+/// is left of the others.
+fn open_places(plan: &Plan, robots: usize) -> Vec<(usize, usize)> {
+    let shares: Vec<f64> = plan.queues.iter().map(|queue| queue.share).collect();
+    let counts = split(robots, &shares);
+    let places = |queue: usize| plan.queues[queue].places.len();
+    let queues = 0..plan.queues.len();
+    let mut open: Vec<(usize, usize)> = queues
+        .clone()
+        .flat_map(|queue| (0..counts[queue].min(places(queue))).map(move |place| (queue, place)))
+        .collect();
+    let missing = robots.saturating_sub(open.len());
+    let spare =
+        queues.flat_map(|queue| (counts[queue].min(places(queue))..places(queue)).map(move |place| (queue, place)));
+    open.extend(spare.take(missing));
+    open
+}
+
+/// The columns that the present seats mean, if they seat exactly these robots on open places.
+fn present_columns(
+    robots: &[(String, Vector2<f64>)],
+    open: &[(usize, usize)],
+    present: &[Seated],
+) -> Option<Vec<usize>> {
+    let column = |(name, _): &(String, Vector2<f64>)| {
+        let seat = present.iter().find(|seat| seat.robot == *name)?;
+        open.iter().position(|place| *place == (seat.queue, seat.place))
+    };
+    let columns: Vec<usize> = robots.iter().map(column).collect::<Option<_>>()?;
+    (present.len() == robots.len()).then_some(columns)
+}
+
+/// The robots of one queue in the order of 6.2.1.
+fn chain(plan: &Plan, queue: usize, robots: &[(String, Vector2<f64>)], seats: &[(usize, usize)]) -> Vec<Seated> {
+    let team: Vec<usize> = (0..robots.len()).filter(|&robot| seats[robot].0 == queue).collect();
+    let candidate = |&robot: &usize| {
+        let (name, position) = &robots[robot];
+        let segment_distance = plan.queues[queue].curve.nearest(*position).distance;
+        Candidate { name, position: *position, segment_distance }
+    };
+    let candidates: Vec<Candidate<'_>> = team.iter().map(candidate).collect();
+    let team_goal = plan.queues[queue].vertices.first().copied().unwrap_or_default();
+    let mut leader = None;
+    let mut seated = Vec::with_capacity(team.len());
+    for (rank, index) in order(&candidates, team_goal).into_iter().enumerate() {
+        let robot = robots[team[index]].0.clone();
+        let next = leader.replace(robot.clone());
+        seated.push(Seated { robot, queue, place: seats[team[index]].1, rank: rank + 1, leader: next });
+    }
+    seated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn plan(name: &str) -> Plan {
+        let path = format!("{}/../../config/formations/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+        trench_plan::parse(&path, &std::fs::read_to_string(&path).unwrap()).unwrap()
+    }
+
+    fn team(points: &[(f64, f64)]) -> Vec<(String, Vector2<f64>)> {
+        let robot = |(index, &(x, y)): (usize, &(f64, f64))| (format!("robot{}", index + 1), Vector2::new(x, y));
+        points.iter().enumerate().map(robot).collect()
+    }
+
+    /// Starts of experiment 2 (4.6).
+    const SQUARE: [(f64, f64); 4] = [(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)];
+
+    #[test]
+    fn the_square_of_4_6() {
+        let seats = organise(&plan("square"), &team(&SQUARE), &[], 0.2);
+        let told: Vec<_> = seats.iter().map(|seat| (seat.robot.as_str(), seat.queue, seat.place, seat.rank)).collect();
+        let expected = [("robot2", 0, 1, 1), ("robot1", 0, 0, 2), ("robot4", 1, 1, 1), ("robot3", 1, 0, 2)];
+        assert_eq!(told, expected, "robots nearest to the vertex (1.275, ..) lead their chains");
+        assert_eq!(seats[1].leader.as_deref(), Some("robot2"));
+    }
+
+    #[test]
+    fn noise_does_not_flap() {
+        let plan = plan("square");
+        // Two robots nearly as far from each other's places.
+        let before = organise(&plan, &team(&[(0.9, 0.501), (0.9, 0.2), (0.2, 1.6), (0.9, 1.5)]), &[], 0.2);
+        let after = organise(&plan, &team(&[(0.901, 0.5), (0.899, 0.2), (0.2, 1.6), (0.9, 1.5)]), &before, 0.2);
+        let places = |seats: &[Seated]| -> Vec<_> {
+            let mut all: Vec<_> = seats.iter().map(|seat| (seat.robot.clone(), seat.queue, seat.place)).collect();
+            all.sort();
+            all
+        };
+        assert_eq!(places(&before), places(&after));
+    }
+
+    #[test]
+    fn fewer_robots_than_places() {
+        let seats = organise(&plan("square"), &team(&SQUARE[..3]), &[], 0.2);
+        assert_eq!(seats.len(), 3);
+    }
+
+    #[test]
+    fn an_assignment_tells_its_seats() {
+        let plan = plan("triangle");
+        let seats = organise(&plan, &team(&SQUARE[..3]), &[], 0.2);
+        let assignment = Assignment { members: seats.iter().map(Seated::member).collect(), ..Default::default() };
+        assert_eq!(Seated::of_assignment(&plan, &assignment), seats);
+        let mut foreign = assignment;
+        foreign.members[0].queue = 9;
+        assert!(Seated::of_assignment(&plan, &foreign).is_empty());
+    }
+
+    proptest! {
+        #[test]
+        fn everyone_has_a_place_of_their_own_and_a_rank(
+            points in proptest::collection::vec((0.0..2.4_f64, 0.0..1.8_f64), 0..5), keep in 0.0..1.0_f64,
+        ) {
+            let plan = plan("square");
+            let robots = team(&points);
+            let seats = organise(&plan, &robots, &[], keep);
+            prop_assert_eq!(seats.len(), robots.len());
+            let mut places: Vec<_> = seats.iter().map(|seat| (seat.queue, seat.place)).collect();
+            places.sort_unstable();
+            places.dedup();
+            prop_assert_eq!(places.len(), robots.len());
+            for pair in seats.windows(2).filter(|pair| pair[0].queue == pair[1].queue) {
+                prop_assert_eq!(pair[1].rank, pair[0].rank + 1);
+                prop_assert_eq!(pair[1].leader.as_ref(), Some(&pair[0].robot));
+            }
+            prop_assert_eq!(organise(&plan, &robots, &seats, keep), seats);
+        }
+    }
+}
