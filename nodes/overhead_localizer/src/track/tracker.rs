@@ -60,14 +60,7 @@ impl Tracker {
     /// A tracker that has seen nothing yet; `seed` is for the noise of [`Settings::added_sigma`].
     #[must_use]
     pub fn new(settings: Settings, seed: u64) -> Self {
-        let of_disc = settings.disc_sigma;
-        let of_pose = [
-            of_disc * std::f64::consts::FRAC_1_SQRT_2,
-            of_disc * std::f64::consts::FRAC_1_SQRT_2,
-            of_disc * std::f64::consts::SQRT_2 / settings.pad.disc_spacing,
-        ];
-        let variance = |axis: usize| of_pose[axis] * of_pose[axis] + settings.added_sigma[axis].powi(2);
-        let measurement = Matrix3::from_diagonal(&Vector3::new(variance(0), variance(1), variance(2)));
+        let measurement = measurement(&settings);
         let mut tracker = Self {
             tracks: Vec::new(),
             measurement,
@@ -91,6 +84,12 @@ impl Tracker {
             was_seen: false,
         };
         self.tracks = self.settings.robots.iter().map(unplaced).collect();
+    }
+
+    /// Takes other settings for the same robots.
+    pub fn tune(&mut self, settings: Settings) {
+        self.measurement = measurement(&settings);
+        self.settings = settings;
     }
 
     /// All robots, ordered as in the settings.
@@ -158,6 +157,18 @@ impl Tracker {
             };
         }
     }
+}
+
+/// The covariance of a measured pose: two discs, each off by the same in any direction, and the noise added.
+fn measurement(settings: &Settings) -> Matrix3<f64> {
+    let of_disc = settings.disc_sigma;
+    let of_pose = [
+        of_disc * std::f64::consts::FRAC_1_SQRT_2,
+        of_disc * std::f64::consts::FRAC_1_SQRT_2,
+        of_disc * std::f64::consts::SQRT_2 / settings.pad.disc_spacing,
+    ];
+    let variance = |axis: usize| of_pose[axis] * of_pose[axis] + settings.added_sigma[axis].powi(2);
+    Matrix3::from_diagonal(&Vector3::new(variance(0), variance(1), variance(2)))
 }
 
 impl Track {

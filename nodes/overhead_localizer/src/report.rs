@@ -1,0 +1,116 @@
+//! What the localizer tells people: log lines when a robot's status changes, the state of camera and team once a second.
+
+use crate::stream::Stream;
+use crate::track::{Status, Track};
+use std::collections::BTreeMap;
+use trench_core::{Condition, Health, Level, Sink, Steady, Times};
+
+/// Without frames for so long, s, something is wrong with the camera.
+const SILENCE: f64 = 0.5;
+/// How often conditions are looked at, s.
+pub(crate) const PERIOD: f64 = 0.25;
+
+/// Keeps the counters that go to /diagnostics.
+pub(crate) struct Report {
+    health: Health,
+    port: usize,
+    statuses: Vec<Status>,
+    /// Frames that were not understood, by reason.
+    rejected: BTreeMap<String, u64>,
+    last_frame: Option<Steady>,
+    window: Option<(Steady, u64)>,
+    rate: f64,
+    rejected_at_window: u64,
+}
+
+impl Report {
+    pub(crate) fn new(health: Health, port: usize) -> Self {
+        Self {
+            health,
+            port,
+            statuses: Vec::new(),
+            rejected: BTreeMap::new(),
+            last_frame: None,
+            window: None,
+            rate: 0.0,
+            rejected_at_window: 0,
+        }
+    }
+
+    /// Counts a message that is no frame of this camera; the first of each kind goes to the log.
+    pub(crate) fn reject(&mut self, reason: String, sink: &mut dyn Sink) {
+        // A stream of ever different reasons must not fill the memory.
+        let reason = if self.rejected.len() < 32 { reason } else { "other reasons".to_owned() };
+        if !self.rejected.contains_key(&reason) {
+            sink.log(Level::Error, &format!("frame dropped: {reason}"));
+        }
+        *self.rejected.entry(reason).or_default() += 1;
+    }
+
+    /// Tells of every robot that was lost, found or became doubtful in this frame.
+    pub(crate) fn frame(&mut self, at: Times, tracks: &[Track], stream: &Stream, sink: &mut dyn Sink) {
+        self.last_frame = Some(at.steady);
+        let before = std::mem::replace(&mut self.statuses, tracks.iter().map(|track| track.status).collect());
+        for (index, track) in tracks.iter().enumerate() {
+            let was = before.get(index).copied().unwrap_or(Status::Lost);
+            let (level, text) = match (was, track.status) {
+                (old, new) if old == new => continue,
+                (_, Status::Lost) => (Level::Warn, "lost"),
+                (_, Status::Ambiguous) => (Level::Warn, "seen, but it may be another robot"),
+                (Status::Lost | Status::Ambiguous, _) => (Level::Info, "found"),
+                _ => continue,
+            };
+            sink.log(level, &format!("{}: {text}", track.name));
+        }
+        if before != self.statuses {
+            self.publish(at, tracks, stream, sink);
+        }
+    }
+
+    /// Publishes the conditions if it is time or one has changed.
+    pub(crate) fn publish(&mut self, at: Times, tracks: &[Track], stream: &Stream, sink: &mut dyn Sink) {
+        self.measure_rate(at, stream);
+        let rejected: u64 = self.rejected.values().sum();
+        let silent = self.last_frame.is_none_or(|last| at.steady.seconds_since(last) > SILENCE);
+        let (condition, message) = match self.rejected.iter().max_by_key(|(_, count)| **count) {
+            Some((reason, _)) if rejected > self.rejected_at_window => (Condition::Error, format!("dropped: {reason}")),
+            _ if silent => (Condition::Error, "no frames".to_owned()),
+            _ => (Condition::Ok, "frames arrive".to_owned()),
+        };
+        self.health.set("camera", condition, message);
+        self.health.value("camera", "frames", stream.frames);
+        self.health.value("camera", "frames per second", format!("{:.1}", self.rate));
+        self.health.value("camera", "frames missed", stream.missed);
+        self.health.value("camera", "frames out of order", stream.stale);
+        self.health.value("camera", "frames dropped", rejected);
+
+        let names = |status: Status| {
+            let names: Vec<&str> =
+                tracks.iter().filter(|track| track.status == status).map(|track| track.name.as_str()).collect();
+            names.join(" ")
+        };
+        let (lost, doubtful) = (names(Status::Lost), names(Status::Ambiguous));
+        let (condition, message) = match (lost.is_empty(), doubtful.is_empty()) {
+            (true, true) => (Condition::Ok, "all robots are seen".to_owned()),
+            (false, true) => (Condition::Warn, format!("lost: {lost}")),
+            (true, false) => (Condition::Error, format!("in doubt: {doubtful}")),
+            (false, false) => (Condition::Error, format!("in doubt: {doubtful}; lost: {lost}")),
+        };
+        self.health.set("robots", condition, message);
+        self.health.publish(at, self.port, sink);
+    }
+
+    fn measure_rate(&mut self, at: Times, stream: &Stream) {
+        match self.window {
+            None => self.window = Some((at.steady, stream.frames)),
+            Some((start, frames)) => {
+                let elapsed = at.steady.seconds_since(start);
+                if elapsed >= 1.0 {
+                    self.rate = stream.frames.saturating_sub(frames) as f64 / elapsed;
+                    self.window = Some((at.steady, stream.frames));
+                    self.rejected_at_window = self.rejected.values().sum();
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! The localizer's parameters.
+
+use crate::track::{self, Motion, Robot};
+use crate::vision::ColourLimits;
+use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
+use trench_core::Files;
+use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
+
+/// What the discs come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Input {
+    /// Frames on /overhead/image_raw.
+    Image,
+    /// Discs on /overhead/detections.
+    Detections,
+}
+
+/// What the localizer is told once.
+#[derive(Debug, Clone)]
+pub(crate) struct Settings {
+    pub(crate) camera: Camera,
+    pub(crate) input: Input,
+    pub(crate) noise_seed: u64,
+    pub(crate) team: track::Settings,
+    pub(crate) colours: ColourLimits,
+}
+
+pub(crate) fn descriptors() -> Vec<P> {
+    let (colours, motion) = (ColourLimits::default(), Motion::default());
+    vec![
+        P::string_list("robots", &[], "names of the robots that carry pads").read_only(),
+        P::double_list(
+            "initial_poses",
+            &[],
+            "m, m, rad: x, y, theta of each robot at the start, in the order of `robots`; empty: names go by x",
+        )
+        .read_only(),
+        P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras)").read_only(),
+        P::string("mount_file", "", "where the camera hangs (config/cameras)").read_only(),
+        P::string("input", "image", "image: find discs in /overhead/image_raw; detections: take /overhead/detections")
+            .read_only(),
+        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0).read_only(),
+        P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres")
+            .range(0.005, 1.0)
+            .read_only(),
+        P::double("pad.height", Pad::NOMINAL.height, "m, the discs above the floor").range(0.0, 2.0).read_only(),
+        P::double("body.diameter", Pad::NOMINAL.body_diameter, "m, two robots are never nearer than this")
+            .range(0.005, 2.0)
+            .read_only(),
+        P::double("pad.tolerance", 0.005, "m, how far a pair of discs may be from the pad's spacing").range(1e-4, 0.1),
+        P::double("colour.yellow", colours.yellow_ratio, "least (R + G - 2 B) / (R + G + B) of yellow")
+            .range(0.05, 2.0),
+        P::double("colour.blue", colours.blue_ratio, "least (2 B - R - G) / (R + G + B) of blue").range(0.05, 2.0),
+        P::double("colour.minimum", colours.minimum, "of 510, least absolute difference of either").range(5.0, 510.0),
+        P::double("hold", 0.5, "s, how long an unseen robot is carried forward before it is lost").range(0.0, 10.0),
+        P::double("disc_sigma", 5e-5, "m, standard deviation of a disc's measured centre").range(1e-6, 0.1),
+        P::double("motion.acceleration", motion.acceleration, "m/s/sqrt(s), how freely forward speeds change")
+            .range(1e-3, 100.0),
+        P::double("motion.turning", motion.turning, "rad/s/sqrt(s), how freely turning speeds change").range(1e-3, 1e3),
+        P::double("motion.slip", motion.slip, "m/sqrt(s), sideways slip").range(0.0, 1.0),
+        P::double_list(
+            "added_noise.sigma",
+            &[0.0, 0.0, 0.0],
+            "m, m, rad: noise added to measured poses; [0.00046, 0.00049, 0.0122] is that of 4.5.3",
+        )
+        .range(0.0, 1.0),
+        P::integer("added_noise.seed", 1, "of the added noise").range(0.0, 9e15).read_only(),
+    ]
+}
+
+impl Settings {
+    pub(crate) fn load(parameters: &Parameters, files: &dyn Files) -> Result<Self, ConfigError> {
+        let text = |key: &str| -> Result<(String, String), ConfigError> {
+            let path = parameters.str(key)?;
+            if path.is_empty() {
+                return Err(parameters.error(key, "is missing", "name a file, for example one of config/cameras"));
+            }
+            Ok((path.to_owned(), files.read(key, path)?))
+        };
+        let (lens_file, lens) = text("camera_info_file")?;
+        let (mount_file, mount) = text("mount_file")?;
+        let lens = CameraInfo::parse(&lens_file, &lens)?.lens;
+        let mount = Mount::parse(&mount_file, &mount)?;
+        let camera = Camera::new(lens, mount)
+            .map_err(|error| parameters.error("camera_info_file", error.to_string(), "calibrate the camera again"))?;
+
+        let pad = Pad {
+            disc_diameter: parameters.f64("pad.disc_diameter")?,
+            disc_spacing: parameters.f64("pad.disc_spacing")?,
+            height: parameters.f64("pad.height")?,
+            body_diameter: parameters.f64("body.diameter")?,
+        };
+        if pad.height >= mount.height {
+            return Err(parameters.error("pad.height", "is above the camera", format!("below {} m", mount.height)));
+        }
+        let input = match parameters.str("input")? {
+            "image" => Input::Image,
+            "detections" => Input::Detections,
+            _ => return Err(parameters.error("input", "is not an input", "write image or detections")),
+        };
+        let mut settings = Self {
+            camera,
+            input,
+            noise_seed: parameters.usize("added_noise.seed")? as u64,
+            team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },
+            colours: ColourLimits::default(),
+        };
+        settings.tune(parameters)?;
+        Ok(settings)
+    }
+
+    /// Takes what may change while the node runs; on an error nothing changes.
+    pub(crate) fn tune(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        let colours = ColourLimits {
+            yellow_ratio: parameters.f64("colour.yellow")?,
+            blue_ratio: parameters.f64("colour.blue")?,
+            minimum: parameters.f64("colour.minimum")?,
+        };
+        let team = track::Settings {
+            spacing_tolerance: parameters.f64("pad.tolerance")?,
+            disc_sigma: parameters.f64("disc_sigma")?,
+            added_sigma: parameters.f64_array("added_noise.sigma")?,
+            hold: parameters.f64("hold")?,
+            motion: Motion {
+                acceleration: parameters.f64("motion.acceleration")?,
+                turning: parameters.f64("motion.turning")?,
+                slip: parameters.f64("motion.slip")?,
+            },
+            ..self.team.clone()
+        };
+        (self.colours, self.team) = (colours, team);
+        Ok(())
+    }
+}
+
+/// The robots with their start poses, ordered by name.
+fn robots(parameters: &Parameters) -> Result<Vec<Robot>, ConfigError> {
+    let (names, poses) = (parameters.str_list("robots")?, parameters.f64_list("initial_poses")?);
+    if names.is_empty() {
+        return Err(parameters.error("robots", "is empty", "name at least one robot"));
+    }
+    if !poses.is_empty() && poses.len() != 3 * names.len() {
+        let problem = format!("has {} numbers for {} robots", poses.len(), names.len());
+        return Err(parameters.error("initial_poses", problem, "write x, y and theta of each, or nothing"));
+    }
+    let mut robots: Vec<Robot> = Vec::with_capacity(names.len());
+    for (index, name) in names.iter().enumerate() {
+        if name.is_empty() || robots.iter().any(|robot| robot.name == *name) {
+            return Err(parameters.error(
+                "robots",
+                format!("has the name {name:?} empty or twice"),
+                "give each its own",
+            ));
+        }
+        let start = match poses.get(3 * index..3 * index + 3) {
+            Some(&[x, y, theta]) => Some(Pose2 { x, y, theta: track::wrap(theta) }),
+            _ => None,
+        };
+        robots.push(Robot { name: name.clone(), start });
+    }
+    robots.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(robots)
+}
