@@ -132,6 +132,12 @@ impl Bed {
         &mut self.world
     }
 
+    /// The base station, for those who count its errors.
+    #[must_use]
+    pub fn base_station(&self) -> &BaseStation {
+        &self.base
+    }
+
     /// The air becomes better or worse.
     pub fn set_medium(&mut self, setup: MediumSetup) {
         self.medium.set(setup);

@@ -1,0 +1,100 @@
+//! How the test bed is made and what it is connected to.
+
+use crate::core::Testbed;
+use crate::messages::CAMERA_FRAME;
+use crate::settings::{Settings, descriptors};
+use trench_config::Parameters;
+use trench_core::{
+    Advertise, ByteStream, Files, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, StartError,
+};
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::msg::{DiscArray, ObstacleArray};
+use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::rosgraph_msgs::Clock;
+use trench_msgs::sensor_msgs::{CameraInfo, Image, ImageView};
+use trench_msgs::std_msgs::HeaderView;
+use trench_msgs::{Message, TypeInfo};
+use trench_optics::Lens;
+
+/// Where each publication is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ports {
+    pub(crate) diagnostics: usize,
+    pub(crate) contacts: usize,
+    pub(crate) camera_info: usize,
+    /// Images, or detections.
+    pub(crate) frames: usize,
+    pub(crate) obstacles: Option<usize>,
+    pub(crate) clock: Option<usize>,
+    /// The first robot's; the others follow.
+    pub(crate) truth: usize,
+}
+
+/// The node as processes and the simulator make it.
+#[must_use]
+pub fn description() -> NodeDescription {
+    NodeDescription {
+        name: "testbed",
+        about: "The simulated test bed behind the real interfaces: camera frames out, serial bytes in",
+        parameters: descriptors,
+        build,
+    }
+}
+
+fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let settings = Settings::read(parameters, files)?;
+    let (interface, ports) = interface(&settings);
+    Ok(Box::new(Testbed::new(context, settings, interface, ports)))
+}
+
+/// The image of a lens, without its pixels.
+pub(crate) fn image(lens: &Lens, stamp: trench_core::RosTime) -> ImageView<'static> {
+    ImageView {
+        header: HeaderView { stamp: stamp.into(), frame_id: CAMERA_FRAME },
+        height: lens.height,
+        width: lens.width,
+        encoding: "rgb8",
+        is_bigendian: 0,
+        step: 3 * lens.width,
+        data: &[],
+    }
+}
+
+/// Bytes of the pixels of a lens's image.
+pub(crate) fn pixel_bytes(lens: &Lens) -> usize {
+    3 * lens.width as usize * lens.height as usize
+}
+
+fn interface(settings: &Settings) -> (Interface, Ports) {
+    let mut publications = Vec::new();
+    let mut advertise = |topic: &str, type_info: &'static TypeInfo, qos: Qos, local: Local| {
+        publications.push(Advertise { topic: topic.to_owned(), type_info, qos, local });
+        publications.len() - 1
+    };
+    let network = Local::NetworkOnly;
+    let lens = settings.camera.lens();
+    let diagnostics = advertise("/diagnostics", DiagnosticArray::TYPE, Qos::RELIABLE, network);
+    let contacts = advertise("/ground_truth/contacts", DiagnosticArray::TYPE, Qos::RELIABLE, network);
+    let camera_info = advertise("/overhead/camera_info", CameraInfo::TYPE, Qos::RELIABLE, network);
+    let frames = if settings.render {
+        let max_len = image(lens, trench_core::RosTime(0)).encoded_len_with(pixel_bytes(lens));
+        advertise("/overhead/image_raw", Image::TYPE, Qos::SENSOR, Local::SharedMemoryOnly { max_len })
+    } else {
+        let local = Local::SharedMemory { max_len: 16 * 1024 };
+        advertise("/overhead/detections", DiscArray::TYPE, Qos::RELIABLE, local)
+    };
+    let obstacles = (!settings.bed.obstacles.is_empty())
+        .then(|| advertise("/obstacles", ObstacleArray::TYPE, Qos::RELIABLE, network));
+    let clock = settings.publish_clock.then(|| advertise("/clock", Clock::TYPE, Qos::RELIABLE, network));
+    let truth = publications.len();
+    for robot in &settings.robots {
+        let topic = format!("/ground_truth/{robot}/odom");
+        publications.push(Advertise { topic, type_info: Odometry::TYPE, qos: Qos::RELIABLE, local: network });
+    }
+    let interface = Interface {
+        publications,
+        byte_streams: vec![ByteStream::PseudoTerminal { link: settings.link.clone() }],
+        ..Interface::default()
+    };
+    (interface, Ports { diagnostics, contacts, camera_info, frames, obstacles, clock, truth })
+}

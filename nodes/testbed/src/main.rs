@@ -1,0 +1,5 @@
+//! The test bed's process.
+
+fn main() -> std::process::ExitCode {
+    trench_runtime::run(testbed::description())
+}

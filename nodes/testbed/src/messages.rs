@@ -1,0 +1,80 @@
+//! What the test bed publishes, as ROS messages.
+
+use trench_core::RosTime;
+use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
+use trench_msgs::geometry_msgs::Quaternion;
+use trench_msgs::msg::{Obstacle, ObstacleArray, Point2};
+use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::sensor_msgs::CameraInfo;
+use trench_msgs::std_msgs::Header;
+use trench_optics::Lens;
+use trench_sim::{Contact, Thing, Truth};
+
+/// The frame of the camera's messages.
+pub(crate) const CAMERA_FRAME: &str = "overhead_camera";
+
+pub(crate) fn header(stamp: RosTime, frame_id: &str) -> Header {
+    Header { stamp: stamp.into(), frame_id: frame_id.to_owned() }
+}
+
+/// The lens, for an image with this stamp.
+pub(crate) fn camera_info(stamp: RosTime, lens: &Lens) -> CameraInfo {
+    let Lens { width, height, fx, fy, cx, cy, distortion } = *lens;
+    CameraInfo {
+        header: header(stamp, CAMERA_FRAME),
+        height,
+        width,
+        distortion_model: "plumb_bob".to_owned(),
+        d: vec![distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3],
+        k: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
+        r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        p: [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
+        ..CameraInfo::default()
+    }
+}
+
+/// Where a robot really is.
+pub(crate) fn odometry(stamp: RosTime, robot: &str, truth: &Truth) -> Odometry {
+    let mut message =
+        Odometry { header: header(stamp, "map"), child_frame_id: format!("{robot}/base_link"), ..Odometry::default() };
+    let pose = &mut message.pose.pose;
+    (pose.position.x, pose.position.y) = (truth.pose.x, truth.pose.y);
+    let (sin, cos) = libm::sincos(0.5 * truth.pose.theta);
+    pose.orientation = Quaternion { x: 0.0, y: 0.0, z: sin, w: cos };
+    message.twist.twist.linear.x = truth.v;
+    message.twist.twist.angular.z = truth.omega;
+    message
+}
+
+/// What stands in the field.
+pub(crate) fn obstacles(stamp: RosTime, obstacles: &[trench_sim::Obstacle]) -> ObstacleArray {
+    let point = |[x, y]: [f64; 2]| Point2 { x, y };
+    let obstacle = |obstacle: &trench_sim::Obstacle| Obstacle {
+        id: obstacle.id,
+        polygon: obstacle.outline.corners.iter().copied().map(point).collect(),
+        radius: obstacle.outline.radius,
+        velocity: point(obstacle.velocity),
+    };
+    ObstacleArray { header: header(stamp, "map"), obstacles: obstacles.iter().map(obstacle).collect() }
+}
+
+/// Two bodies touch.
+pub(crate) fn contact(stamp: RosTime, contact: &Contact, robots: &[String]) -> DiagnosticArray {
+    let name = |robot: usize| robots.get(robot).map_or("?", String::as_str);
+    let thing = match contact.thing {
+        Thing::Robot(other) => name(other).to_owned(),
+        Thing::Obstacle(number) => format!("obstacle {}", number + 1),
+        Thing::Edge(side) => {
+            format!("{} edge", ["west", "east", "south", "north"].get(usize::from(side)).unwrap_or(&"?"))
+        }
+    };
+    let value = |key: &str, value: f64| KeyValue { key: key.to_owned(), value: value.to_string() };
+    let status = DiagnosticStatus {
+        level: 2,
+        name: format!("contact: {}", name(contact.robot)),
+        message: format!("{} touches {thing}", name(contact.robot)),
+        hardware_id: name(contact.robot).to_owned(),
+        values: vec![value("x", contact.pose.x), value("y", contact.pose.y)],
+    };
+    DiagnosticArray { header: header(stamp, "map"), status: vec![status] }
+}

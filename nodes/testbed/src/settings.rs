@@ -1,0 +1,214 @@
+//! The test bed's parameters.
+
+use crate::obstacles;
+use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
+use trench_core::Files;
+use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
+use trench_radio::{Key, MAX_ROBOTS};
+use trench_sim::camera::{Appearance, Background};
+use trench_sim::{BedSetup, Body, Field, MediumSetup, Motor, Obstacle, Random, Shutter, scattered};
+
+/// What the test bed is told. All of it is fixed while it runs.
+#[derive(Debug, Clone)]
+pub(crate) struct Settings {
+    pub(crate) robots: Vec<String>,
+    pub(crate) bed: BedSetup,
+    pub(crate) link: String,
+    pub(crate) camera: Camera,
+    pub(crate) pad: Pad,
+    pub(crate) appearance: Appearance,
+    pub(crate) render: bool,
+    pub(crate) detection_noise: f64,
+    pub(crate) publish_clock: bool,
+}
+
+pub(crate) fn descriptors() -> Vec<P> {
+    let parameters = vec![
+        P::string_list("robots", &[], "the robots' names"),
+        P::integer_list("ids", &[], "their radio ids; empty: 1, 2, 3 and so on").range(0.0, MAX_ROBOTS as f64 - 1.0),
+        P::double_list("poses", &[], "m and rad, x, y and heading of each robot in turn; empty: at random"),
+        P::double("random.gap", 0.1, "m, between bodies, obstacles and edge where poses are random").range(0.0, 1.0),
+        P::integer("seed", 1, "all chance comes from it"),
+        P::double("field.width", 2.48, "m, along x").range(0.2, 100.0),
+        P::double("field.height", 1.83, "m, along y").range(0.2, 100.0),
+        P::string("plant", "honest", "honest: stepper motors with pull-in speed and ramp; ideal: they follow at once"),
+        P::double("body.radius", 0.08, "m, of the robots").range(0.01, 1.0),
+        P::double("body.half_axle", 0.06, "m, wheel to the middle of the axle").range(0.001, 1.0),
+        P::double("radio.delay_min", 0.003, "s, shortest time of a packet in the air").range(0.0, 1.0),
+        P::double("radio.delay_max", 0.008, "s, longest").range(0.0, 1.0),
+        P::double("radio.loss", 0.03, "share of the packets that a receiver misses").range(0.0, 1.0),
+        P::string("key_file", "", "file with the robots' key, 32 hexadecimal digits; empty: robots obey anyone"),
+        P::string("serial.link", "", "where the link to the base station's pseudo-terminal is made"),
+        P::integer("serial.baud", 115_200, "bit/s at which the line is paced").range(1200.0, 4_000_000.0),
+        P::double("camera.rate", 30.0, "frames a second").range(1.0, 100.0),
+        P::double("camera.exposure", 0.01, "s").range(0.0, 0.1),
+        P::double("camera.delay", 0.035, "s, from the middle of the exposure to the frame").range(0.0, 0.2),
+        P::string("camera.info_file", "", "camera_info YAML of the lens; empty: the nominal lens"),
+        P::string("camera.mount_file", "", "where the camera hangs; empty: above the middle of its view"),
+        P::bool("render", true, "publish images; false: the discs that a detector would find"),
+        P::string("image.background", "plain", "plain, noisy or wood"),
+        P::double("image.noise", 4.0, "of 255, standard deviation of each channel of each pixel").range(0.0, 64.0),
+        P::double("image.gradient", 0.3, "how much darker the darkest corner is").range(0.0, 1.0),
+        P::double("detections.noise", 0.1, "pixel, standard deviation of each disc's u and v").range(0.0, 10.0),
+        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0),
+        P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres").range(0.005, 1.0),
+        P::double("pad.height", Pad::NOMINAL.height, "m, above the floor").range(0.0, 1.0),
+        P::string("obstacles_file", "", "YAML list of obstacles; empty: none"),
+        P::bool("publish_clock", false, "publish /clock"),
+    ];
+    parameters.into_iter().map(P::read_only).collect()
+}
+
+impl Settings {
+    pub(crate) fn read(parameters: &Parameters, files: &dyn Files) -> Result<Self, ConfigError> {
+        let link = parameters.str("serial.link")?.to_owned();
+        if link.is_empty() {
+            let remedy = "write a path that does not exist yet; the bridge's serial.port is the same";
+            return Err(parameters.error("serial.link", "the pseudo-terminal has no place", remedy));
+        }
+        let double = |name: &str| parameters.f64(name);
+        let pad = Pad {
+            disc_diameter: double("pad.disc_diameter")?,
+            disc_spacing: double("pad.disc_spacing")?,
+            height: double("pad.height")?,
+            body_diameter: 2.0 * double("body.radius")?,
+        };
+        Ok(Self {
+            robots: parameters.str_list("robots")?.to_vec(),
+            bed: bed(parameters, files)?,
+            link,
+            camera: camera(parameters, files)?,
+            pad,
+            appearance: appearance(parameters)?,
+            render: parameters.bool("render")?,
+            detection_noise: double("detections.noise")?,
+            publish_clock: parameters.bool("publish_clock")?,
+        })
+    }
+}
+
+fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigError> {
+    let double = |name: &str| parameters.f64(name);
+    let seed = parameters.i64("seed")? as u64;
+    let motor = match parameters.str("plant")? {
+        "honest" => Motor::HONEST,
+        "ideal" => Motor::Ideal,
+        _ => return Err(parameters.error("plant", "is no plant", "write honest or ideal")),
+    };
+    let body = Body { radius: double("body.radius")?, half_axle: double("body.half_axle")?, motor };
+    let field = Field { width: double("field.width")?, height: double("field.height")? };
+    let obstacles = match parameters.str("obstacles_file")? {
+        "" => Vec::new(),
+        path => obstacles::parse(path, &files.read("obstacles_file", path)?)?,
+    };
+    let key = match parameters.str("key_file")? {
+        "" => None,
+        path => {
+            let key = Key::from_hex(&files.read("key_file", path)?);
+            Some(key.map_err(|error| parameters.error("key_file", error.to_string(), "write such a file"))?)
+        }
+    };
+    let poses = poses(parameters, field, body, &obstacles, seed)?;
+    let medium = MediumSetup {
+        delay_min: double("radio.delay_min")?,
+        delay_max: double("radio.delay_max")?,
+        loss: double("radio.loss")?,
+    };
+    if medium.delay_max < medium.delay_min {
+        let remedy = format!("write {} or more", medium.delay_min);
+        return Err(parameters.error("radio.delay_max", "is shorter than radio.delay_min", remedy));
+    }
+    let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;
+    Ok(BedSetup {
+        start: 0,
+        seed,
+        robots: ids(parameters)?.into_iter().zip(poses).collect(),
+        body,
+        field,
+        obstacles,
+        medium,
+        shutter: Shutter {
+            period: nanoseconds(1.0 / double("camera.rate")?),
+            exposure: nanoseconds(double("camera.exposure")?),
+            delay: nanoseconds(double("camera.delay")?),
+        },
+        baud: u32::try_from(parameters.usize("serial.baud")?).unwrap_or(u32::MAX),
+        key,
+    })
+}
+
+/// The robots' ids, each once, as many as names.
+fn ids(parameters: &Parameters) -> Result<Vec<u8>, ConfigError> {
+    let (names, ids) = (parameters.str_list("robots")?, parameters.i64_list("ids")?);
+    if let Some(twice) = names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)) {
+        return Err(parameters.error("robots", format!("{} is there twice", twice.1), "name each robot once"));
+    }
+    if names.len() >= MAX_ROBOTS {
+        let problem = format!("a base station has room for {}", MAX_ROBOTS - 1);
+        return Err(parameters.error("robots", problem, "take fewer robots"));
+    }
+    if ids.is_empty() {
+        return Ok((1..=names.len() as u8).collect());
+    }
+    if ids.len() != names.len() {
+        let problem = format!("has {} ids for {} robots", ids.len(), names.len());
+        return Err(parameters.error("ids", problem, "write one id a robot"));
+    }
+    if let Some(twice) = ids.iter().enumerate().find(|(index, id)| ids[..*index].contains(id)) {
+        return Err(parameters.error("ids", format!("{} is there twice", twice.1), "give each robot its own id"));
+    }
+    Ok(ids.iter().map(|id| *id as u8).collect())
+}
+
+fn poses(
+    parameters: &Parameters,
+    field: Field,
+    body: Body,
+    obstacles: &[Obstacle],
+    seed: u64,
+) -> Result<Vec<Pose2>, ConfigError> {
+    let (count, numbers) = (parameters.str_list("robots")?.len(), parameters.f64_list("poses")?);
+    if numbers.is_empty() {
+        let gap = parameters.f64("random.gap")?;
+        return scattered(count, field, body, gap, obstacles, &mut Random::new(seed, 0)).ok_or_else(|| {
+            let problem = format!("no room for {count} robots this far from each other");
+            parameters.error("random.gap", problem, "write a smaller gap, or take a larger field")
+        });
+    }
+    if numbers.len() != 3 * count {
+        let problem = format!("has {} numbers for {count} robots", numbers.len());
+        return Err(parameters.error("poses", problem, "write x, y and heading for each robot"));
+    }
+    let poses = numbers.chunks_exact(3).map(|pose| Pose2 { x: pose[0], y: pose[1], theta: pose[2] });
+    Ok(poses.collect())
+}
+
+fn camera(parameters: &Parameters, files: &dyn Files) -> Result<Camera, ConfigError> {
+    let lens = match parameters.str("camera.info_file")? {
+        "" => trench_optics::Lens::nominal(),
+        path => CameraInfo::parse(path, &files.read("camera.info_file", path)?)?.lens,
+    };
+    let mount = match parameters.str("camera.mount_file")? {
+        "" => Mount::nominal(),
+        path => Mount::parse(path, &files.read("camera.mount_file", path)?)?,
+    };
+    Camera::new(lens, mount)
+        .map_err(|error| parameters.error("camera.mount_file", error.to_string(), "measure the camera's place again"))
+}
+
+fn appearance(parameters: &Parameters) -> Result<Appearance, ConfigError> {
+    let plain = Appearance::default();
+    let background = match parameters.str("image.background")? {
+        "plain" => plain.background,
+        "noisy" => Background::Noisy([150, 150, 145], 0.1),
+        "wood" => Background::Wood,
+        _ => return Err(parameters.error("image.background", "is no background", "write plain, noisy or wood")),
+    };
+    Ok(Appearance {
+        background,
+        noise: parameters.f64("image.noise")?,
+        gradient: parameters.f64("image.gradient")?,
+        seed: parameters.i64("seed")? as u64,
+        ..plain
+    })
+}
