@@ -1,4 +1,14 @@
 //! Convex hulls, clearance, combined hulls (7.4).
+//!
+//! [`Shape`] is the apparent obstacle of one obstacle, [`combine`] joins those between which no robot can pass,
+//! [`Outline`] measures distances from either.
+mod combine;
+mod convex;
+mod error;
 mod outline;
+mod shape;
 
+pub use combine::{ApparentObstacle, Obstacle, combine};
+pub use error::HullError;
 pub use outline::{Approach, Outline};
+pub use shape::Shape;

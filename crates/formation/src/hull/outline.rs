@@ -51,6 +51,19 @@ impl Outline<'_> {
         self.core_distance(other) - self.radius - other.radius
     }
 
+    /// Whether the gap is strictly less than `limit` (m). Cheaper than [`Self::gap`] where a line between the middles
+    /// already separates the two.
+    pub fn is_nearer_than(&self, other: &Outline<'_>, limit: f64) -> bool {
+        let axis = (other.middle() - self.middle()).try_normalize(0.0).unwrap_or_else(Vector2::x);
+        let reach = self.points.iter().map(|point| point.dot(&axis)).fold(f64::NEG_INFINITY, f64::max);
+        let start = other.points.iter().map(|point| point.dot(&axis)).fold(f64::INFINITY, f64::min);
+        start - reach - self.radius - other.radius < limit && self.gap(other) < limit
+    }
+
+    fn middle(&self) -> Vector2<f64> {
+        self.points.iter().sum::<Vector2<f64>>() / self.points.len() as f64
+    }
+
     /// Distance between the polygons themselves; zero if they overlap.
     fn core_distance(&self, other: &Outline<'_>) -> f64 {
         if self.holds(other.points[0]) || other.holds(self.points[0]) {

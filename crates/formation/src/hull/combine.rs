@@ -1,0 +1,129 @@
+//! Combined apparent obstacles (7.7), (7.8): everything nearer to each other than the clearance becomes one hull.
+//!
+//! Separations are those between hulls, and combining is repeated until no two hulls are nearer than the clearance: a
+//! combined hull may come near to what neither member is near to. The fixpoint is unique, as hulls only grow, so the
+//! result depends on the set of obstacles alone.
+use super::{HullError, Shape, shape::length};
+
+/// An obstacle with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    /// Unlike any other's.
+    pub id: u32,
+    /// Its own convex hull.
+    pub shape: Shape,
+}
+
+/// A (combined) apparent obstacle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ApparentObstacle {
+    /// The least id of the members: it stays while the same members stay together.
+    pub id: u32,
+    /// Ids of the members, ascending.
+    pub members: Vec<u32>,
+    /// Convex hull of all members.
+    pub shape: Shape,
+}
+
+/// A hull on the way to the fixpoint.
+struct Group {
+    /// Indices of members, ascending.
+    members: Vec<usize>,
+    shape: Shape,
+    low: [f64; 2],
+    high: [f64; 2],
+    /// Whether it was formed in the last round: only then can it have new neighbours.
+    fresh: bool,
+}
+
+/// Combines obstacles whose hulls are separated by strictly less than `clearance` (m); by ascending id.
+///
+/// # Errors
+/// A clearance that is negative or not finite; two obstacles of one id.
+pub fn combine(obstacles: &[Obstacle], clearance: f64) -> Result<Vec<ApparentObstacle>, HullError> {
+    let clearance = length("the clearance", clearance)?;
+    let mut sorted: Vec<&Obstacle> = obstacles.iter().collect();
+    sorted.sort_by_key(|obstacle| obstacle.id);
+    if let Some(pair) = sorted.windows(2).find(|pair| pair[0].id == pair[1].id) {
+        return Err(HullError::DuplicateId(pair[0].id));
+    }
+    let single = |(index, obstacle): (usize, &&Obstacle)| Group::new(vec![index], obstacle.shape.clone());
+    let mut groups: Vec<Group> = sorted.iter().enumerate().map(single).collect();
+    while merge_once(&mut groups, &sorted, clearance) {}
+    groups.sort_by_key(|group| group.members[0]);
+    let named = |group: Group| {
+        let members: Vec<u32> = group.members.iter().map(|index| sorted[*index].id).collect();
+        ApparentObstacle { id: members[0], members, shape: group.shape }
+    };
+    Ok(groups.into_iter().map(named).collect())
+}
+
+/// Joins all groups that are near each other now; whether there were any.
+fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) -> bool {
+    groups.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+    let mut parents: Vec<usize> = (0..groups.len()).collect();
+    let mut merged = false;
+    for (i, group) in groups.iter().enumerate() {
+        for (j, other) in groups.iter().enumerate().skip(i + 1) {
+            if other.low[0] - group.high[0] >= clearance {
+                break;
+            }
+            let (first, second) = (root(&mut parents, i), root(&mut parents, j));
+            if first != second && (group.fresh || other.fresh) && group.is_nearer_than(other, clearance) {
+                parents[first.max(second)] = first.min(second);
+                merged = true;
+            }
+        }
+    }
+    if merged {
+        join(groups, &mut parents, obstacles);
+    }
+    merged
+}
+
+/// Replaces the groups of each root by their union.
+fn join(groups: &mut Vec<Group>, parents: &mut [usize], obstacles: &[&Obstacle]) {
+    let mut unions: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
+    for (index, group) in groups.iter().enumerate() {
+        unions[root(parents, index)].extend_from_slice(&group.members);
+    }
+    let mut old: Vec<Option<Group>> = core::mem::take(groups).into_iter().map(Some).collect();
+    for (index, mut members) in unions.into_iter().enumerate().filter(|(_, members)| !members.is_empty()) {
+        match old[index].take() {
+            Some(group) if group.members.len() == members.len() => groups.push(Group { fresh: false, ..group }),
+            _ => {
+                members.sort_unstable();
+                let shape = Shape::around(members.iter().map(|member| &obstacles[*member].shape));
+                groups.push(Group::new(members, shape));
+            }
+        }
+    }
+}
+
+/// Root of a node, halving the path to it.
+fn root(parents: &mut [usize], mut node: usize) -> usize {
+    while parents[node] != node {
+        parents[node] = parents[parents[node]];
+        node = parents[node];
+    }
+    node
+}
+
+impl Group {
+    fn new(members: Vec<usize>, shape: Shape) -> Self {
+        let outline = shape.outline();
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in outline.points {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point[axis] - outline.radius);
+                high[axis] = high[axis].max(point[axis] + outline.radius);
+            }
+        }
+        Self { members, low, high, shape, fresh: true }
+    }
+
+    fn is_nearer_than(&self, other: &Self, clearance: f64) -> bool {
+        let apart = |axis: usize| (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]);
+        apart(1) < clearance && self.shape.outline().is_nearer_than(&other.shape.outline(), clearance)
+    }
+}
