@@ -1,6 +1,8 @@
 //! The subcommands.
 
+mod bag;
 mod launch;
+mod plot;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -9,14 +11,18 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(name = "trench", version)]
 pub(crate) enum Command {
+    Bag(bag::Arguments),
     Launch(launch::Arguments),
+    Plot(plot::Arguments),
 }
 
 impl Command {
     /// Runs the subcommand.
     pub(crate) fn run(self) -> ExitCode {
         match self {
+            Self::Bag(arguments) => bag::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
+            Self::Plot(arguments) => plot::run(&arguments),
         }
     }
 }

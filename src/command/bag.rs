@@ -1,0 +1,115 @@
+//! `trench bag`: look at, judge and repair recorded runs.
+
+use clap::{Args, Subcommand};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use trench_bag::run::{Run, SummaryOptions, summary};
+use trench_bag::{BagError, BagReader, BagWriter, Stamp, WriteOptions};
+use trench_core::Qos;
+
+mod info;
+
+/// Records, shows and judges runs in bags (MCAP, as `ros2 bag` and Foxglove read them).
+#[derive(Args)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Subcommand)]
+enum Action {
+    /// Says what is in a bag: files, duration, topics with types, counts and rates, and what is damaged.
+    Info {
+        /// A bag's folder or an .mcap file.
+        bag: PathBuf,
+    },
+    /// Judges a run: each robot's final distance to its vertex, shape errors, the nearest that bodies came.
+    Analyze {
+        /// A bag's folder or an .mcap file.
+        bag: PathBuf,
+        /// Prints JSON instead of a table.
+        #[arg(long)]
+        json: bool,
+        /// When to give the shape error, in seconds since the beginning of the run.
+        #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
+        at: Vec<f64>,
+        /// Over which interval to give the largest shape error; by default the last third of the goal points' motion
+        /// and all that follows.
+        #[arg(long, value_names = ["FROM", "TO"], num_args = 2)]
+        interval: Vec<f64>,
+    },
+    /// Copies all intact messages of a damaged or unfinished bag into a new one and says what is lost.
+    Recover {
+        /// A bag's folder or an .mcap file.
+        bag: PathBuf,
+        /// The new bag's folder, which must not exist.
+        out: PathBuf,
+    },
+}
+
+/// Runs the action.
+pub(super) fn run(arguments: &Arguments) -> ExitCode {
+    let done = match &arguments.action {
+        Action::Info { bag } => BagReader::open(bag).map(|bag| print!("{}", info::Info(&bag))),
+        Action::Analyze { bag, json, at, interval } => analyze(bag, *json, at, interval),
+        Action::Recover { bag, out } => recover(bag, out),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("trench bag: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), BagError> {
+    let run = Run::from_bag(&open(path)?)?;
+    let mut options = SummaryOptions::default();
+    if !at.is_empty() {
+        options.shape_times = at.to_vec();
+    }
+    if let &[from, to] = interval {
+        options.interval = Some((from, to));
+    }
+    let summary = summary(&run, &options);
+    if json {
+        println!("{:#}", serde_json::json!(summary));
+    } else {
+        print!("{summary}");
+    }
+    Ok(())
+}
+
+fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
+    let bag = open(path)?;
+    let mut writer = BagWriter::create(out, WriteOptions::default())?;
+    let mut ids = Vec::new();
+    for topic in bag.topics() {
+        ids.push(writer.add_topic(&topic.name, topic.topic_type(), Qos::RELIABLE)?);
+    }
+    for message in bag.messages() {
+        let message = message?;
+        let stamp = Stamp {
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            sequence: message.sequence,
+        };
+        if let Some(&id) = ids.get(message.topic) {
+            writer.write(id, stamp, &message)?;
+        }
+    }
+    let count = writer.message_count();
+    writer.finish()?;
+    println!("{count} messages recovered into {}", out.display());
+    Ok(())
+}
+
+/// Opens a bag and says what is damaged.
+fn open(path: &Path) -> Result<BagReader, BagError> {
+    let bag = BagReader::open(path)?;
+    for damage in bag.damage() {
+        eprintln!("trench bag: {damage}");
+    }
+    Ok(bag)
+}

@@ -1,0 +1,117 @@
+//! The field seen from above: x to the right and y upwards at the same scale.
+
+use super::axes::short;
+use super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use plotters::chart::ChartContext;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use std::f64::consts::TAU;
+use std::ops::Range;
+use trench_bag::run::{Pose, Run};
+use trench_msgs::msg::Segment;
+
+/// A chart in the map, m.
+pub(super) type FieldChart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// A robot's body, m.
+const BODY_RADIUS: f64 = 0.08;
+/// The view of the overhead camera, m.
+const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
+/// Room for the numbers and names of the axes, units.
+const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
+const MARGIN: u32 = 10 * UNIT;
+/// What a legend says of things that are not robots.
+pub(super) const NOTES: &str = "×  vertex      - - -  segment";
+
+/// The part of the map that a picture shows.
+#[derive(Clone)]
+pub(super) struct View {
+    x: Range<f64>,
+    y: Range<f64>,
+}
+
+impl View {
+    /// All of the run; all of the camera's view where the run stays inside it.
+    pub(super) fn of(run: &Run) -> Self {
+        let poses = run.robots.values().flat_map(|track| track.poses.iter().map(Pose::position));
+        let vertices = run.robots.keys().filter_map(|name| run.vertex(name));
+        let [mut low, mut high] = [[0.0; 2], CAMERA_VIEW];
+        let mut inside = true;
+        for point in poses.chain(vertices) {
+            for axis in 0..2 {
+                inside &= point[axis] > -BODY_RADIUS && point[axis] < CAMERA_VIEW[axis] + BODY_RADIUS;
+                low[axis] = low[axis].min(point[axis] - BODY_RADIUS);
+                high[axis] = high[axis].max(point[axis] + BODY_RADIUS);
+            }
+        }
+        if inside {
+            [low, high] = [[0.0; 2], CAMERA_VIEW];
+        }
+        Self { x: low[0]..high[0], y: low[1]..high[1] }
+    }
+
+    /// The height, in units, of a chart of this width whose two axes have the same scale.
+    pub(super) fn height(&self, width: u32, is_labelled: bool) -> u32 {
+        let labels = if is_labelled { LABELS } else { [0, 0] };
+        let plot_width = f64::from(width - labels[0] - 2 * MARGIN);
+        let ratio = (self.y.end - self.y.start) / (self.x.end - self.x.start);
+        (plot_width * ratio).round() as u32 + labels[1] + 2 * MARGIN
+    }
+
+    /// A chart that fills `area`, which has the size that [`View::height`] asks for.
+    pub(super) fn chart<'a, 'b>(&self, area: &'a Area<'b>, is_labelled: bool) -> Result<FieldChart<'a, 'b>, String> {
+        let labels = if is_labelled { LABELS } else { [0, 0] };
+        let mut chart = ChartBuilder::on(area)
+            .margin(MARGIN)
+            .y_label_area_size(labels[0])
+            .x_label_area_size(labels[1])
+            .build_cartesian_2d(self.x.clone(), self.y.clone())
+            .map_err(text)?;
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
+        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(12).y_labels(9);
+        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+        if is_labelled {
+            mesh.x_desc("x (m)").y_desc("y (m)");
+        }
+        mesh.draw().map_err(text)?;
+        let frame = [(self.x.start, self.y.start), (self.x.end, self.y.end)];
+        chart.draw_series([Rectangle::new(frame, line(BLACK.mix(0.4), 1))]).map_err(text)?;
+        Ok(chart)
+    }
+}
+
+/// Draws segments (dashed) and the vertices that the robots make for (crosses).
+pub(super) fn draw_reference(chart: &mut FieldChart<'_, '_>, run: &Run) -> Result<(), String> {
+    let formation = run.formation.iter().filter(|formation| formation.header.frame_id != "target");
+    for queue in formation.flat_map(|formation| &formation.queues) {
+        let series = DashedLineSeries::new(points_of(&queue.segment), 5 * UNIT, 4 * UNIT, line(REFERENCE, 1));
+        chart.draw_series(series).map_err(text)?;
+    }
+    let vertices = run.robots.keys().filter_map(|name| run.vertex(name));
+    chart.draw_series(vertices.map(|[x, y]| Cross::new((x, y), 5 * UNIT, line(BLACK, 2)))).map_err(text)?;
+    Ok(())
+}
+
+/// Draws a body with a line from its centre to its front.
+pub(super) fn draw_robot(chart: &mut FieldChart<'_, '_>, pose: &Pose, colour: RGBColor) -> Result<(), String> {
+    let at = |angle: f64| (pose.x + BODY_RADIUS * angle.cos(), pose.y + BODY_RADIUS * angle.sin());
+    let outline: Vec<_> = (0..=36).map(|step| at(f64::from(step) / 36.0 * TAU)).collect();
+    chart.draw_series([Polygon::new(outline.clone(), colour.mix(0.15))]).map_err(text)?;
+    chart.draw_series([PathElement::new(outline, line(colour, 1))]).map_err(text)?;
+    let front = vec![(pose.x, pose.y), at(pose.theta)];
+    chart.draw_series([PathElement::new(front, line(BLACK.mix(0.75), 2))]).map_err(text)?;
+    Ok(())
+}
+
+/// A segment as a chain of straight pieces.
+fn points_of(segment: &Segment) -> Vec<(f64, f64)> {
+    let corners = segment.points.iter().map(|point| (point.x, point.y));
+    match (segment.kind, segment.points.first(), segment.values.as_slice()) {
+        (Segment::KIND_ARC, Some(centre), &[radius, start, sweep, ..]) => (0..=60)
+            .map(|step| start + sweep * f64::from(step) / 60.0)
+            .map(|angle| (centre.x + radius * angle.cos(), centre.y + radius * angle.sin()))
+            .collect(),
+        _ => corners.collect(),
+    }
+}
