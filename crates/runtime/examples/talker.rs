@@ -14,6 +14,8 @@ use trench_msgs::{Message, service_info};
 
 const TALKER: NodeDescription = NodeDescription { name: "talker", about: "Counts on /chatter.", parameters, build };
 
+const LOCAL: &str = "network, shared_memory (and the network) or shared_memory_only";
+
 fn parameters() -> Vec<ParameterDescriptor> {
     vec![
         ParameterDescriptor::double("rate", 1.0, "messages a second").range(0.1, 1.0e5),
@@ -21,16 +23,18 @@ fn parameters() -> Vec<ParameterDescriptor> {
             .range(0.0, 1.0e9),
         ParameterDescriptor::bool("latched", false, "late joiners get the last message").read_only(),
         ParameterDescriptor::integer("padding", 0, "bytes to add to each message").range(0.0, 1.0e7).read_only(),
-        ParameterDescriptor::bool("shared_memory", true, "readers of this host need no network").read_only(),
+        ParameterDescriptor::string("local", "shared_memory", LOCAL).read_only(),
     ]
 }
 
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let padding = parameters.usize("padding")?;
-    let local = if parameters.bool("shared_memory")? {
-        Local::SharedMemory { max_len: padding + 64 }
-    } else {
-        Local::NetworkOnly
+    let max_len = padding + 64;
+    let local = match parameters.str("local")? {
+        "network" => Local::NetworkOnly,
+        "shared_memory" => Local::SharedMemory { max_len },
+        "shared_memory_only" => Local::SharedMemoryOnly { max_len },
+        _ => return Err(parameters.error("local", "is no way to a reader", LOCAL).into()),
     };
     let advertise = Advertise {
         topic: "/chatter".to_owned(),
@@ -62,6 +66,7 @@ impl Talker {
     fn say(&mut self, at: Times, sink: &mut dyn Sink) {
         self.sent += 1;
         sink.publish(0, &Text { data: format!("{}{}", self.sent, self.padding) });
+        sink.log(Level::Debug, &format!("said {}", self.sent));
         let due = self.next.unwrap_or(at.steady);
         // A burst of what was missed keeps the rate; a long pause is not made up for.
         let late = at.steady.seconds_since(due);

@@ -26,11 +26,16 @@ pub(crate) struct SharedTopic(String);
 impl Host {
     /// Joins this host's shared memory. What dead processes left is cleaned up.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
+        Self::join_apart(domain, &env::var("TRENCH_SHM_PREFIX").unwrap_or_default())
+    }
+
+    /// Joins those processes alone that use the same `prefix`.
+    pub(super) fn join_apart(domain: u16, prefix: &str) -> Result<Self, TransportError> {
         let fail = |reason: String| TransportError::endpoint("shared memory", &reason);
         // Errors come back as values and are told in the node's name; iceoryx2's own lines would tell them twice.
         set_log_level(LogLevel::Fatal);
         let node = NodeBuilder::new()
-            .config(&config().map_err(fail)?)
+            .config(&config(prefix).map_err(fail)?)
             .signal_handling_mode(SignalHandlingMode::Disabled)
             .create::<ipc::Service>()
             .map_err(|error| fail(format!("{error:?}")))?;
@@ -69,12 +74,11 @@ impl SharedTopic {
 
 /// Files of our own name and folder: iceoryx2's default configuration would be looked for in the folder `config` of
 /// wherever the process was started, and users of one host would meet in one folder.
-fn config() -> Result<Config, String> {
+fn config(prefix: &str) -> Result<Config, String> {
     let user = rustix::process::getuid().as_raw();
-    let separate = env::var("TRENCH_SHM_PREFIX").unwrap_or_default();
     let mut config = Config::default();
-    let wrong = |error| format!("TRENCH_SHM_PREFIX is `{separate}`: {error:?}; use letters and digits");
-    config.global.prefix = FileName::new(format!("trench_{user}_{separate}_").as_bytes()).map_err(wrong)?;
+    let wrong = |error| format!("TRENCH_SHM_PREFIX is `{prefix}`: {error:?}; use letters and digits");
+    config.global.prefix = FileName::new(format!("trench_{user}_{prefix}_").as_bytes()).map_err(wrong)?;
     let root = env::temp_dir().join(format!("trench-{user}")).join("shared_memory");
     let root =
         Path::new(root.as_os_str().as_encoded_bytes()).map_err(|error| format!("{}: {error:?}", root.display()))?;

@@ -14,3 +14,6 @@ pub(crate) use reader::SharedReader;
 pub(crate) use writer::SharedWriter;
 
 use header::Header;
+
+#[cfg(test)]
+mod tests;

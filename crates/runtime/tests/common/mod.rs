@@ -1,0 +1,119 @@
+//! Real processes for the tests: the talker and the listener of the examples.
+
+use std::io::{BufRead, BufReader, Read};
+use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// Long enough for discovery on a loaded machine; tests end sooner.
+pub const PATIENCE: Duration = Duration::from_secs(40);
+
+/// Keeps the processes of one test apart from all others.
+#[derive(Clone)]
+pub struct Island {
+    domain: u16,
+    name: String,
+}
+
+/// A node's process with its lines of output.
+pub struct Running {
+    child: Child,
+    lines: Receiver<String>,
+    errors: Receiver<String>,
+}
+
+impl Island {
+    /// `number` must differ between the tests of this package.
+    pub fn new(number: u16) -> Self {
+        // Below 160, so that a second run at the same time on this host has domains of its own.
+        let domain = 40 + number + (std::process::id() % 3) as u16 * 40;
+        Self { domain, name: format!("test{}n{number}", std::process::id()) }
+    }
+
+    /// The variable that separates the network.
+    #[allow(dead_code, reason = "not every test file of the package needs it")]
+    pub fn domain(&self) -> String {
+        self.domain.to_string()
+    }
+
+    /// A command of an example with these arguments.
+    pub fn command(&self, example: &str, arguments: &str) -> Command {
+        let deps = std::env::current_exe().unwrap();
+        let program: PathBuf = deps.parent().unwrap().parent().unwrap().join("examples").join(example);
+        let mut command = Command::new(program);
+        command.args(arguments.split_whitespace());
+        command.env("ROS_DOMAIN_ID", self.domain.to_string()).env("TRENCH_SHM_PREFIX", &self.name);
+        command.env("TRENCH_STATE_DIR", std::env::temp_dir().join(&self.name));
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    /// Starts an example.
+    pub fn start(&self, example: &str, arguments: &str) -> Running {
+        let mut child = self.command(example, arguments).spawn().unwrap();
+        let lines = follow(child.stdout.take().unwrap());
+        let errors = follow(child.stderr.take().unwrap());
+        Running { child, lines, errors }
+    }
+}
+
+impl Running {
+    /// The next line of output.
+    pub fn line(&self) -> String {
+        self.lines.recv_timeout(PATIENCE).expect("a line of output in time")
+    }
+
+    /// Waits until the log says `text`.
+    pub fn wait_for_log(&self, text: &str) {
+        let start = Instant::now();
+        while start.elapsed() < PATIENCE {
+            match self.errors.recv_timeout(PATIENCE) {
+                Ok(line) if line.contains(text) => return,
+                Ok(_) => {}
+                Err(error) => panic!("waiting for `{text}`: {error}"),
+            }
+        }
+        panic!("`{text}` was never logged");
+    }
+
+    /// Sends a signal.
+    pub fn signal(&self, name: &str) {
+        let status = Command::new("kill").args(["-s", name, &self.child.id().to_string()]).status().unwrap();
+        assert!(status.success());
+    }
+
+    /// Waits for the end and gives the exit code (128 + the signal that killed it) and all further output.
+    pub fn end(mut self) -> (i32, Vec<String>, Vec<String>) {
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                let code = status.code().unwrap_or_else(|| 128 + status.signal().unwrap_or(0));
+                return (code, self.lines.iter().collect(), self.errors.iter().collect());
+            }
+            assert!(start.elapsed() < PATIENCE, "the process does not end");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Fails where the process has ended, as it should have.
+        let _ended = self.child.kill();
+        let _ended = self.child.wait();
+    }
+}
+
+fn follow(output: impl Read + Send + 'static) -> Receiver<String> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        for line in BufReader::new(output).lines().map_while(Result::ok) {
+            if sender.send(line).is_err() {
+                return;
+            }
+        }
+    });
+    receiver
+}
