@@ -1,10 +1,10 @@
 //! Chapter 4 against integration of the unicycle itself, and the corrections of its propositions.
-use nalgebra::Vector3;
+use nalgebra::{Vector1, Vector3};
 use std::f64::consts::PI;
 use trench_formation::Vector2;
 use trench_formation::kinematics::{Axle, Polar, Pose, Wheels};
-use trench_formation::laws::{Direct, Family, Nominal, PointLaw, Robust};
-use trench_formation::stability::{ClosedForm, TwoGainLaw, rk4, sine_integral};
+use trench_formation::laws::{Direct, Family, Lyapunov, Nominal, PointLaw, Robust};
+use trench_formation::stability::{C1, ClosedForm, LAMBDA_STAR, TwoGainLaw, rk4, sine_integral};
 
 /// Integrates (3.6) with headings counted through full turns. The goal point is the origin.
 fn drive(law: &dyn PointLaw, start: (f64, f64, f64), duration: f64, steps: u32) -> Vector3<f64> {
@@ -127,4 +127,48 @@ fn printed_wheel_speeds_turn_the_wrong_way() {
     let mirrored = Wheels { left: wheels.right, right: wheels.left };
     assert!(polar.rates(axle.twist(wheels)).misalignment < 0.0);
     assert!(polar.rates(axle.twist(mirrored)).misalignment > 0.0);
+}
+
+/// A.2's second family, to which (3.9) belongs, lets V grow while |phi| > pi/2: the robot drives away while it turns.
+#[test]
+fn law_3_9_may_raise_the_lyapunov_function() {
+    let polar = Polar { distance: 3.0, misalignment: 2.8 };
+    assert!(Lyapunov::of(polar, Direct { k1: 1.0, k2: 0.2 }.twist(polar)).rate > 0.0);
+    assert!(Lyapunov::of(polar, Nominal { k1: 1.0, k2: 0.2 }.twist(polar)).rate < 0.0);
+}
+
+/// phi(t) of (4.8), by RK4.
+fn misalignment_after(gains: Robust, start: f64, duration: f64) -> f64 {
+    let steps = (duration * 100.0) as u32;
+    let mut phi = Vector1::new(start);
+    for _ in 0..steps {
+        phi = rk4(0.0, phi, duration / f64::from(steps), |_, phi| Vector1::new(gains.misalignment_rate(phi.x)));
+    }
+    phi.x
+}
+
+/// The lower edge of the stable zone: phi vanishes as sqrt(3/(4 K2 t)), slower than any exponential; on the upper edge it
+/// stays where 2 phi = tan 2 phi; for K2 < 0 it grows.
+#[test]
+fn edges_of_the_stable_zone() {
+    let low = misalignment_after(Robust { k1: 1.0, k2: 0.5, k3: 0.5 }, 0.5, 4000.0);
+    let predicted = libm::sqrt(3.0 / (4.0 * 0.5 * 4000.0));
+    assert!((low / predicted - 1.0).abs() < 0.01, "{low} {predicted}");
+    let high = misalignment_after(Robust { k1: 1.0, k2: 1.0, k3: 1.0 + 2.0 * C1 }, 3.1, 2000.0);
+    assert!((high - 2.2467).abs() < 2e-3, "{high}");
+    assert!(misalignment_after(Robust { k1: 1.0, k2: -0.1, k3: 0.9 }, 0.01, 5.0) > 0.01);
+}
+
+/// H_c is the net change: under (3.10) with lambda > lambda* and |phi0| > pi/2 the robot turns to and fro.
+#[test]
+fn total_turning_exceeds_h_c() {
+    let turning = |lambda: f64| {
+        let start = Polar { distance: 1.0, misalignment: 3.0 };
+        let form = ClosedForm { law: TwoGainLaw::Nominal, k1: lambda, k2: 1.0, start };
+        let headings: Vec<f64> = (0..=3000).map(|tick| form.heading_change(0.01 * f64::from(tick))).collect();
+        let total: f64 = headings.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+        total - form.final_heading_change().abs()
+    };
+    assert!(turning(LAMBDA_STAR - 0.1).abs() < 1e-9);
+    assert!(turning(8.0) > 0.1);
 }

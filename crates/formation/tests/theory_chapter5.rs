@@ -3,7 +3,7 @@ use nalgebra::{SVector, Vector4};
 use proptest::prelude::*;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
-use trench_formation::laws::{GoalMotion, GoalTracking};
+use trench_formation::laws::{Capability, GoalMotion, GoalTracking};
 use trench_formation::stability::rk4;
 use trench_formation::trench::{
     Conic, ConstantDamping, CriticallyDamped, Damping, Hyperbolic, HyperbolicDamping, Quadratic, Saturated,
@@ -127,5 +127,25 @@ proptest! {
         let (after, before) = (start.advanced(now.acceleration, step), start.advanced(now.acceleration, -step));
         let slope = (law.steer(after, goal(4.0, step)).lyapunov - law.steer(before, goal(4.0, -step)).lyapunov) / (2.0 * step);
         prop_assert!((slope - now.lyapunov_rate).abs() < 1e-5 * (1.0 + slope.abs()), "{slope} {}", now.lyapunov_rate);
+    }
+
+    /// 9.2: a bounded actuator, without a cut: neither speed nor acceleration is exceeded, and the robot arrives.
+    #[test]
+    fn bounded_tracking_stays_within_its_capability(
+        x in -20.0..20.0_f64, y in -20.0..20.0_f64, speed in 0.2..2.0_f64, acceleration in 0.2..2.0_f64, direction in 0.0..6.0_f64,
+    ) {
+        let law = GoalTracking::within(Capability { speed, acceleration });
+        let (sin, cos) = libm::sincos(direction);
+        let mut robot = PointState { position: Vector2::new(x, y), velocity: Vector2::new(cos, sin) * speed };
+        let goal = GoalMotion::at_rest(Vector2::zeros());
+        // The way there at full speed, and sixty time constants of the damping.
+        let step = 0.01 / law.damping.coefficient;
+        for _ in 0..6000 + (60.0 / (speed * step)) as u32 {
+            let steered = law.steer(robot, goal);
+            prop_assert!(steered.acceleration.norm() <= acceleration * (1.0 + 1e-12));
+            robot = robot.advanced_semi_implicit(steered.acceleration, step);
+            prop_assert!(robot.velocity.norm() <= speed * (1.0 + 1e-12));
+        }
+        prop_assert!(robot.position.norm() < 1e-3, "{}", robot.position);
     }
 }

@@ -2,7 +2,7 @@
 use super::GoalMotion;
 use crate::Vector2;
 use crate::kinematics::PointState;
-use crate::trench::{Damping, Trench};
+use crate::trench::{ConstantDamping, Damping, Hyperbolic, Trench};
 
 /// u = r_g'' + k(d) d' + Phi'(d) d_hat, d from the robot to the goal point.
 ///
@@ -25,6 +25,30 @@ pub struct Steered {
     pub lyapunov: f64,
     /// Its derivative while what the robot follows moves as the law assumes.
     pub lyapunov_rate: f64,
+}
+
+/// What a robot can do, beyond what its goal point does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capability {
+    /// m/s, positive.
+    pub speed: f64,
+    /// m/s^2, positive.
+    pub acceleration: f64,
+}
+
+impl GoalTracking<Hyperbolic, ConstantDamping> {
+    /// (5.1) for a bounded actuator (9.2): Phi = alpha (sqrt(x^2 + a^2) - a) with alpha half of the acceleration and k = alpha
+    /// over the speed.
+    ///
+    /// |d'|' <= -k |d'| + alpha, so |d'| never exceeds the speed once it is below it, and |u - r_g''| <= k |d'| + alpha never the
+    /// acceleration. The law is not cut anywhere: V' = -k |d'|^2 holds as it stands. a = 4 alpha / k^2 makes the bottom of the
+    /// trench critically damped (Example A.9.1).
+    pub fn within(capability: Capability) -> Self {
+        let alpha = 0.5 * capability.acceleration;
+        let coefficient = alpha / capability.speed;
+        let a = 4.0 * alpha / (coefficient * coefficient);
+        Self { trench: Hyperbolic { alpha, a }, damping: ConstantDamping { coefficient } }
+    }
 }
 
 impl<T: Trench, D: Damping> GoalTracking<T, D> {

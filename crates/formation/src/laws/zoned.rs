@@ -80,17 +80,23 @@ impl<T: Trench> ZonedAttraction<T> {
         let mut lyapunov = 0.5 * robot.velocity.norm_squared() + self.trench.value(offset.norm());
         let mut lyapunov_rate =
             force.dot(&attraction.velocity) + delta.dot(&robot.velocity) - self.damping * robot.velocity.norm_squared();
-        let to_leader = leader.position - robot.position;
+        let (towards, distance) = direction(leader.position - robot.position);
         let relative = self.leader_damping * (leader.velocity - robot.velocity);
-        acceleration += along(to_leader, self.zoning.force(to_leader.norm())) + relative;
-        lyapunov += self.zoning.value(to_leader.norm());
+        acceleration += self.zoning.force(distance) * towards + relative;
+        lyapunov += self.zoning.value(distance);
         lyapunov_rate += relative.dot(&robot.velocity);
         for other in ahead {
-            let to_other = other - robot.position;
-            acceleration += along(to_other, self.zoning.repulsion(to_other.norm()));
-            lyapunov += self.zoning.repulsive_value(to_other.norm());
+            let (towards, distance) = direction(other - robot.position);
+            acceleration += self.zoning.repulsion(distance) * towards;
+            lyapunov += self.zoning.repulsive_value(distance);
         }
         Steered { acceleration, lyapunov, lyapunov_rate }
+    }
+
+    /// How far the robot still travels across `direction` (a unit vector) if nothing but its damping acts on it, m: a direction
+    /// of attraction is proper when the segment, seen along it, reaches that far (6.3).
+    pub fn drift_across(&self, direction: Vector2<f64>, robot: PointState) -> f64 {
+        direction.perp(&robot.velocity).abs() / self.damping
     }
 }
 
@@ -105,8 +111,8 @@ fn compensation(force: Vector2<f64>, point_velocity: Vector2<f64>, velocity: Vec
     -turned / speed_squared
 }
 
-/// `force` towards `offset`; robots exactly in one place have no direction, and part along x.
-fn along(offset: Vector2<f64>, force: f64) -> Vector2<f64> {
+/// Unit vector and length of `offset`; robots exactly in one place have no direction, and part along x.
+fn direction(offset: Vector2<f64>) -> (Vector2<f64>, f64) {
     let distance = offset.norm();
-    if distance == 0.0 { Vector2::new(force, 0.0) } else { offset * (force / distance) }
+    (if distance == 0.0 { Vector2::new(1.0, 0.0) } else { offset / distance }, distance)
 }

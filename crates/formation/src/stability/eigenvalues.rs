@@ -8,8 +8,9 @@ pub(super) fn extreme_eigenvalues(symmetric: &DMatrix<f64>) -> (f64, f64) {
     let negligible = f64::EPSILON * f64::EPSILON * matrix.norm_squared();
     // Convergence is quadratic: a handful of sweeps; not-a-number matrices end the loop too.
     for _ in 0..50 {
-        let off: f64 =
-            (0..size).map(|row| (row + 1..size).map(|column| matrix[(row, column)].powi(2)).sum::<f64>()).sum();
+        let row_sum =
+            |row: usize| (row + 1..size).map(|column| matrix[(row, column)] * matrix[(row, column)]).sum::<f64>();
+        let off: f64 = (0..size).map(row_sum).sum();
         if off <= negligible || off.is_nan() {
             break;
         }

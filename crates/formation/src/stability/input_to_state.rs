@@ -60,10 +60,15 @@ pub enum ChainError {
 impl QueueRobot {
     /// A robot on a line that is a double integrator with the closed-loop poles `-first` and `-second` (1/s).
     pub fn double_integrator(first: f64, second: f64) -> Self {
+        Self::double_integrator_with(first * second, first + second)
+    }
+
+    /// A robot on a line that is a double integrator with K = (`position_gain`, `velocity_gain`), 1/s^2 and 1/s.
+    pub fn double_integrator_with(position_gain: f64, velocity_gain: f64) -> Self {
         Self {
             dynamics: DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 0.0, 0.0]),
             input: DMatrix::from_row_slice(2, 1, &[0.0, 1.0]),
-            gain: DMatrix::from_row_slice(1, 2, &[first * second, first + second]),
+            gain: DMatrix::from_row_slice(1, 2, &[position_gain, velocity_gain]),
         }
     }
 
