@@ -3,6 +3,8 @@
 //! `tests/launch/expected.json` holds what the real `ros2 launch` gave the processes of `main.launch.yaml`;
 //! `tests/launch/bad/NAME.txt` the error for `NAME.launch.yaml` (written anew where TRENCH_BLESS is set).
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helper functions too")]
+
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,5 +1,7 @@
 //! How `trench launch` starts, watches and ends real processes.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helper functions too")]
+
 use rustix::process::{Pid, Signal, kill_process, test_kill_process};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};

@@ -25,6 +25,7 @@ pub(crate) fn parameter_file(node: &str, data: &BTreeMap<String, ParameterData>)
         // Writing to a String cannot fail.
         let _ = match value {
             ParameterData::Scalar(value) => writeln!(text, "    {name}: {}", scalar(value)),
+            ParameterData::List(values) if values.is_empty() => writeln!(text, "    {name}: []"),
             ParameterData::List(values) => {
                 let items: String = values.iter().map(|value| format!("\n    - {}", scalar(value))).collect();
                 writeln!(text, "    {name}:{items}")
@@ -108,8 +109,13 @@ fn double_quoted(text: &str) -> String {
             '\t' => quoted.push_str("\\t"),
             ' '..='~' => quoted.push(letter),
             _ => {
+                let code = u32::from(letter);
                 // Writing to a String cannot fail.
-                let _ = write!(quoted, "\\U{:08X}", u32::from(letter));
+                let _ = match code {
+                    0..0x100 => write!(quoted, "\\x{code:02X}"),
+                    0x100..0x1_0000 => write!(quoted, "\\u{code:04X}"),
+                    _ => write!(quoted, "\\U{code:08X}"),
+                };
             }
         }
     }

@@ -21,7 +21,7 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
 /// What a legend says of things that are not robots.
-pub(super) const NOTES: &str = "×  vertex      - - -  segment";
+pub(super) const NOTES: &str = "× vertex,  - - - segment";
 
 /// The part of the map that a picture shows.
 #[derive(Clone)]

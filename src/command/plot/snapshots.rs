@@ -18,7 +18,7 @@ pub(super) fn draw(run: &Run, times: &[f64]) -> Picture {
     let rows = times.len().div_ceil(columns);
     picture((WIDTH * columns as u32, (rows as i32 * cell.1 + LEGEND) as u32), |area| {
         let (top, grid) = area.split_vertically(LEGEND);
-        legend(&top, run.robots.keys(), &format!("{NOTES}      ●  goal point"))?;
+        legend(&top, run.robots.keys(), &format!("{NOTES},  ● goal point"))?;
         let cells = grid.split_evenly((rows, columns));
         for (cell, &time) in cells.iter().zip(times) {
             let (title, field) = cell.split_vertically(TITLE);

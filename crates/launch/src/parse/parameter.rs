@@ -102,9 +102,6 @@ fn value(node: &Node, kind: Option<Type>) -> Result<ParameterValue<'_>, ConfigEr
         return Ok(ParameterValue::Scalar(item, kind));
     };
     let items = nodes.iter().map(item).collect::<Result<Vec<_>, _>>()?;
-    if items.is_empty() {
-        return Err(node.error("is an empty list", "an empty list has no type: leave the parameter out"));
-    }
     Ok(ParameterValue::List(node, items))
 }
 

@@ -100,10 +100,9 @@ fn list(node: &Node, items: &[Item<'_>], scope: &Scope) -> Result<ParameterData,
     uniform(literals).ok_or_else(|| node.error("mixes types", "write elements of one type, real numbers with a point"))
 }
 
-/// A list, if it has elements and all are of one type.
+/// A list, if all its elements are of one type.
 fn uniform(literals: Option<Vec<Literal>>) -> Option<ParameterData> {
     let literals = literals?;
-    let first = literals.first()?;
-    let same = literals.iter().all(|literal| literal.same_type(first) && *literal != Literal::Null);
+    let same = literals.iter().all(|literal| literal.same_type(&literals[0]) && *literal != Literal::Null);
     same.then_some(ParameterData::List(literals))
 }

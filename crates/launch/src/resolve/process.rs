@@ -1,6 +1,7 @@
 //! From a process action to a process.
 
-use super::{Resolver, condition, variable_name};
+use super::{Resolver, variable_name};
+use crate::literal::Literal;
 use crate::parse::{Command, ProcessAction, Text, Word};
 use crate::plan::{Output, Process};
 use crate::scope::Scope;
@@ -26,7 +27,7 @@ impl Resolver<'_> {
             None => Path::new(&argv[0]).file_name().unwrap_or_default().to_string_lossy().into_owned(),
         };
         let respawn = match &action.respawn {
-            Some((text, respawn)) if condition(text, scope)? => Some(*respawn),
+            Some((text, respawn)) if switch(text, scope)? => Some(*respawn),
             _ => None,
         };
         let process = Process {
@@ -78,6 +79,15 @@ impl Resolver<'_> {
 /// The words of a command line with their substitutions made.
 pub(super) fn perform_words(words: &[Word], text: &Text<'_>, scope: &Scope) -> Result<Vec<String>, ConfigError> {
     words.iter().map(|word| Text { template: word.clone(), node: text.node }.perform(scope)).collect()
+}
+
+/// A text that YAML reads as a boolean. (Conditions know fewer words, there as here.)
+fn switch(text: &Text<'_>, scope: &Scope) -> Result<bool, ConfigError> {
+    match Literal::resolve(&text.perform(scope)?) {
+        Literal::Bool(value) => Ok(value),
+        Literal::Int(value @ (0 | 1)) => Ok(value == 1),
+        _ => Err(text.node.error("is neither true nor false", "write \"true\" or \"false\"")),
+    }
 }
 
 fn output(text: &Text<'_>, scope: &Scope) -> Result<Output, ConfigError> {
