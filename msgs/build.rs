@@ -14,7 +14,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for package in entries(Path::new("standard"))? {
         read_package(&package, &name_of(&package), &mut library)?;
     }
-    for folder in ["msg", "srv", "standard"] {
+    // Cargo would take a folder that is not there for changed, every time.
+    for folder in ["msg", "srv", "standard"].into_iter().filter(|folder| Path::new(folder).exists()) {
         println!("cargo::rerun-if-changed={folder}");
     }
     let source = generate(&library, &Settings { own_package: OWN_PACKAGE, views: &VIEWS })?;

@@ -1,4 +1,4 @@
-"""Prints the CDR that ROS 2 itself makes of filled messages, as JSON: the content of ros2_cdr.json.
+"""Prints the CDR that ROS 2 itself makes of filled standard messages, as JSON: the content of ros2_cdr.json.
 
     eval "$(scripts/ros-venv --env)"
     cargo run -p trench_msgs --example type_hashes | python3 msgs/tests/ros2_cdr.py > msgs/tests/ros2_cdr.json
@@ -57,6 +57,8 @@ class Filler:
 vectors = {}
 for name in json.load(sys.stdin):
     package, namespace, short = name.split("/")
+    if package == "trench_msgs":  # still changes; the interop tests exchange it with a live rclpy
+        continue
     try:
         cls = getattr(importlib.import_module(f"{package}.{namespace}"), short)
     except ModuleNotFoundError:

@@ -1,4 +1,4 @@
-//! CDR that ROS 2 itself made (ros2_cdr.py, with rclpy and Fast DDS) of one filled message a type.
+//! CDR that ROS 2 itself made (ros2_cdr.py, with rclpy and Fast DDS) of one filled message of every standard type.
 
 use std::collections::BTreeMap;
 use trench_msgs::dynamic::{Schema, Value};
@@ -39,9 +39,8 @@ fn all_values_are_read_and_written_as_ros_2_does() {
         let name = M::TYPE.name;
         let vectors = vectors();
         let Some(theirs) = vectors.get(name) else {
-            // Only these are in no package that the script can import.
-            let absent = ["std_srvs/", "tf2_msgs/", "trench_msgs/"];
-            assert!(absent.iter().any(|package| name.starts_with(package)), "{name} has no vector");
+            // tf2_msgs comes in no wheel; ours, which still change, are exchanged with a live rclpy by the interop tests.
+            assert!(name.starts_with("tf2_msgs/") || name.starts_with("trench_msgs/"), "{name} has no vector");
             return;
         };
         let schema = Schema::parse(name, M::TYPE.definition).expect("our own definitions are understood");

@@ -6,7 +6,7 @@
 //! let cdr = [0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 1, 0, 0, 0, 2, 0, 0, 0, b'a', 0];
 //! let value = schema.decode(&cdr)?;
 //! assert_eq!(value.get("at.x").and_then(|x| x.as_f64()), Some(1.0));
-//! assert_eq!(value.to_string(), "{at: {x: 1}, tags: [\"a\"]}");
+//! assert_eq!(value.to_string(), "{at: {x: 1.0}, tags: [\"a\"]}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -100,8 +100,9 @@ impl fmt::Display for Value {
             Self::Bool(value) => write!(f, "{value}"),
             Self::Integer(value) => write!(f, "{value}"),
             Self::Unsigned(value) => write!(f, "{value}"),
-            Self::Float32(value) => write!(f, "{value}"),
-            Self::Float64(value) => write!(f, "{value}"),
+            // As Rust writes it: 1.0 is not taken for an integer.
+            Self::Float32(value) => write!(f, "{value:?}"),
+            Self::Float64(value) => write!(f, "{value:?}"),
             Self::Text(text) => write!(f, "{text:?}"),
             Self::Bytes(bytes) => write!(f, "<{} bytes>", bytes.len()),
             Self::List(values) => {
