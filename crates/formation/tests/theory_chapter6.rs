@@ -59,6 +59,11 @@ fn robot(team: &Team, index: usize) -> PointState {
 /// 300 s of 6.5: the segment y = x, directions of attraction across it, the chain leader drawn to (70, 70) by (5.1).
 fn simulate(zoning: Zoning, damping: f64, method: Method) -> Run {
     let follower = ZonedAttraction { trench: TRENCH, zoning, damping, leader_damping: 0.0, compensates: true };
+    simulate_with(follower, method)
+}
+
+fn simulate_with(follower: ZonedAttraction<Hyperbolic>, method: Method) -> Run {
+    let ZonedAttraction { zoning, damping, .. } = follower;
     let leader = GoalTracking { trench: TRENCH, damping: ConstantDamping { coefficient: damping } };
     let goal = GoalMotion::at_rest(Vector2::new(70.0, 70.0));
     let rate = |_: f64, team: &Team| {
@@ -159,6 +164,17 @@ fn modified_radii_of_table_6_3() {
     );
     assert!(run.closest > 1.5);
     assert!(run.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
+}
+
+/// k = 1 whips the chain against its zoning walls; damping relative to the leader cures it.
+#[test]
+fn leader_damping_calms_the_chain() {
+    let follower =
+        ZonedAttraction { trench: TRENCH, zoning: table_6_2(), damping: 1.0, leader_damping: 0.0, compensates: true };
+    let wild = simulate_with(follower, Method::SemiImplicitEuler);
+    let calm = simulate_with(ZonedAttraction { leader_damping: 2.0, ..follower }, Method::SemiImplicitEuler);
+    assert!(calm.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
+    assert!(calm.last_outside_neutral < 20.0, "{}", calm.last_outside_neutral);
 }
 
 proptest! {
