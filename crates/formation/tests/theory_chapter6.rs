@@ -173,6 +173,7 @@ fn leader_damping_calms_the_chain() {
         ZonedAttraction { trench: TRENCH, zoning: table_6_2(), damping: 1.0, leader_damping: 0.0, compensates: true };
     let wild = simulate_with(follower, Method::SemiImplicitEuler);
     let calm = simulate_with(ZonedAttraction { leader_damping: 2.0, ..follower }, Method::SemiImplicitEuler);
+    assert!(wild.closest < 1.0 && calm.closest > 3.0, "{} {}", wild.closest, calm.closest);
     assert!(calm.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
     assert!(calm.last_outside_neutral < 20.0, "{}", calm.last_outside_neutral);
 }

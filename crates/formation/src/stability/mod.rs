@@ -10,6 +10,7 @@ mod lyapunov_equation;
 mod mismatch;
 mod special;
 mod stable_zone;
+mod violation;
 
 pub use cascade::cascade_bounds;
 pub use closed_form::{ClosedForm, TwoGainLaw};
@@ -21,4 +22,5 @@ pub use integrate::rk4;
 pub use lyapunov_equation::{LyapunovError, solve_lyapunov};
 pub use mismatch::final_misalignment;
 pub use special::{entire_cosine_integral, sine_integral};
-pub use stable_zone::{C1, C2, LAMBDA_STAR, StableZone, Violation};
+pub use stable_zone::{C1, C2, LAMBDA_STAR, StableZone};
+pub use violation::Violation;
