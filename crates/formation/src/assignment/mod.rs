@@ -1,28 +1,94 @@
 //! Assignment of robots to queues and places.
 //!
-//! [`split`] says how many robots a queue gets, [`solve`] which; [`keeps`] keeps noise from changing an assignment.
+//! Shares become numbers of places ([`robots_per_queue`]); robots get places at the least sum of squared distances, kept
+//! while nothing is clearly better ([`assign_to_queues`], [`reassign`]); the optimum carries its proof ([`Optimum`]).
+mod hysteresis;
 mod shares;
 mod solve;
 
-pub use shares::split;
+pub use hysteresis::{Hysteresis, assign_to_queues, reassign};
+pub use shares::robots_per_queue;
 pub use solve::{Optimum, solve};
 
-/// Whether a present assignment of cost `present` stays in force against the best one of cost `best`: unless the best is
-/// shorter by the fraction `relative` and by `absolute`. With costs that grow with distance, noise below the absolute
-/// margin never makes two robots change places back and forth.
-pub fn keeps(present: f64, best: f64, relative: f64, absolute: f64) -> bool {
-    present - best <= absolute || best >= present * (1.0 - relative)
+use thiserror::Error;
+
+/// Why there is no assignment.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum AssignmentError {
+    /// A cost that is NaN or infinite.
+    #[error("the cost of row {row} and column {column} is {value}: every robot and place needs a finite position")]
+    NotFinite {
+        /// Robot.
+        row: usize,
+        /// Place.
+        column: usize,
+        /// The cost.
+        value: f64,
+    },
+    /// Numbers that do not make a matrix.
+    #[error("{values} values do not fit {columns} columns: give one value for each robot and queue")]
+    Shape {
+        /// Values given.
+        values: usize,
+        /// Columns wanted.
+        columns: usize,
+    },
+    /// More robots than places.
+    #[error("{rows} robots do not fit into {columns} places: raise the shares or remove robots")]
+    TooFewPlaces {
+        /// Robots.
+        rows: usize,
+        /// Places.
+        columns: usize,
+    },
+    /// A share that is no fraction.
+    #[error("the share of queue {queue} is {value}, but must be between 0 and 1")]
+    Share {
+        /// Which queue.
+        queue: usize,
+        /// Its share.
+        value: f64,
+    },
+    /// Shares that leave robots over.
+    #[error("the shares of the queues add up to {0}, but must add up to 1")]
+    ShareSum(f64),
 }
 
-#[cfg(test)]
-mod tests {
-    use super::keeps;
+/// Costs of rows (robots) in columns (places), finite by construction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CostMatrix {
+    values: Vec<f64>,
+    rows: usize,
+    columns: usize,
+}
 
-    #[test]
-    fn hysteresis() {
-        assert!(keeps(1.0, 1.0, 0.2, 0.01));
-        assert!(keeps(1.0, 0.9, 0.2, 0.01), "10 % is too little");
-        assert!(!keeps(1.0, 0.7, 0.2, 0.01));
-        assert!(keeps(0.001, 0.0001, 0.2, 0.01), "millimetres are noise");
+impl CostMatrix {
+    /// From values row by row.
+    ///
+    /// # Errors
+    /// Values that are not finite, or not `rows` times `columns` many.
+    pub fn new(values: Vec<f64>, rows: usize, columns: usize) -> Result<Self, AssignmentError> {
+        if rows.checked_mul(columns) != Some(values.len()) {
+            return Err(AssignmentError::Shape { values: values.len(), columns });
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(at) => Err(AssignmentError::NotFinite { row: at / columns, column: at % columns, value: values[at] }),
+            None => Ok(Self { values, rows, columns }),
+        }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Cost of a row in a column.
+    pub fn at(&self, row: usize, column: usize) -> f64 {
+        self.values[row * self.columns + column]
     }
 }

@@ -1,51 +1,31 @@
-//! How many robots each queue gets.
+//! How many robots each queue gets (Definition 2.1.1).
+use super::AssignmentError;
 
-/// Splits `robots` robots among queues by their `shares` (C of Definition 2.1.1), by largest remainders: each queue gets
-/// the whole part of its share, and the robots left go to the largest fractions, the earlier queue first among equals.
-pub fn split(robots: usize, shares: &[f64]) -> Vec<usize> {
-    let total: f64 = shares.iter().sum();
-    let ideal = |share: f64| if total > 0.0 { robots as f64 * share / total } else { 0.0 };
-    // A third written as 0.3333 must still be one robot of three.
-    let whole = |share: f64| libm::floor(ideal(share) + 1e-2);
-    let mut counts: Vec<usize> = shares.iter().map(|&share| whole(share) as usize).collect();
+/// Divides `robots` among queues by their capacity shares, by the method of the largest remainder: each queue gets the
+/// whole part of its quota, and what is left over goes to the largest fractions, to the earlier queue if equal.
+///
+/// # Errors
+/// Shares that are negative, not finite, or do not add up to 1 within 1e-6.
+pub fn robots_per_queue(shares: &[f64], robots: usize) -> Result<Vec<usize>, AssignmentError> {
+    if let Some(queue) = shares.iter().position(|share| !(share.is_finite() && *share >= 0.0)) {
+        return Err(AssignmentError::Share { queue, value: shares[queue] });
+    }
+    let sum: f64 = shares.iter().sum();
+    if (sum - 1.0).abs() > 1e-6 {
+        return Err(AssignmentError::ShareSum(sum));
+    }
+    let quotas: Vec<f64> = shares.iter().map(|share| share / sum * robots as f64).collect();
+    // A quota that is whole but for rounding (3 * (1/3)) must not lose its last robot to a remainder of 1e-16.
+    let whole: Vec<f64> = quotas.iter().map(|quota| libm::floor(quota + 1e-9)).collect();
+    let mut counts: Vec<usize> = whole.iter().map(|count| *count as usize).collect();
     let mut order: Vec<usize> = (0..shares.len()).collect();
-    let remainder = |queue: usize| ideal(shares[queue]) - counts[queue] as f64;
-    order.sort_by(|&a, &b| remainder(b).total_cmp(&remainder(a)));
+    order.sort_by(|a, b| {
+        let (first, second) = (quotas[*a] - whole[*a], quotas[*b] - whole[*b]);
+        if (first - second).abs() <= 1e-9 { a.cmp(b) } else { second.total_cmp(&first) }
+    });
     let left = robots.saturating_sub(counts.iter().sum());
-    for &queue in order.iter().cycle().take(if shares.is_empty() { 0 } else { left }) {
+    for queue in order.into_iter().filter(|queue| shares[*queue] > 0.0).take(left) {
         counts[queue] += 1;
     }
-    counts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn largest_remainders() {
-        let check = |robots, shares: &[f64], expected: &[usize]| assert_eq!(split(robots, shares), expected);
-        check(4, &[0.5, 0.5], &[2, 2]);
-        check(3, &[0.3333, 0.3333, 0.3334], &[1, 1, 1]);
-        check(5, &[0.5, 0.5], &[3, 2]);
-        check(10, &[0.25, 0.25, 0.5], &[3, 2, 5]);
-        check(3, &[1.0], &[3]);
-        check(0, &[0.5, 0.5], &[0, 0]);
-        check(7, &[], &[]);
-    }
-
-    proptest! {
-        #[test]
-        fn everybody_gets_a_queue_and_no_queue_is_far_off(
-            robots in 0_usize..40, shares in proptest::collection::vec(0.05..1.0_f64, 1..6),
-        ) {
-            let counts = split(robots, &shares);
-            prop_assert_eq!(counts.iter().sum::<usize>(), robots);
-            let total: f64 = shares.iter().sum();
-            for (count, share) in counts.iter().zip(&shares) {
-                prop_assert!((*count as f64 - robots as f64 * share / total).abs() < 1.02);
-            }
-        }
-    }
+    Ok(counts)
 }
