@@ -1,5 +1,7 @@
 //! The whole way from pixels to poses, against the truth behind rendered frames.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
+
 use overhead_localizer::track::{MapDisc, Robot, Settings, Status, Tracker, wrap};
 use overhead_localizer::vision::{ColourLimits, Detector, Expectation, Frame};
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
@@ -82,7 +84,7 @@ fn robots_that_pass_at_two_centimetres_keep_their_names_and_accuracy() {
             Pose2 {
                 x: 1.2 + along * f64::cos(heading) - aside * f64::sin(heading),
                 y: 0.9 + along * f64::sin(heading) + aside * f64::cos(heading),
-                theta: wrap(heading + robot * 3.141_592),
+                theta: wrap(heading + robot * std::f64::consts::PI),
             }
         };
         let mut tracker = team(&[pose(0.0, -0.6), pose(1.0, -0.6)]);

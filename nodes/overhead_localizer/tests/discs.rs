@@ -1,5 +1,7 @@
 //! The pixel pipeline on rendered frames.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
+
 use nalgebra::Point3;
 use overhead_localizer::vision::{Colour, ColourLimits, Detector, Disc, Expectation, Frame};
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pixel, Pose2};

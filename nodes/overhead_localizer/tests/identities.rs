@@ -1,5 +1,7 @@
 //! Identities through near encounters, gaps and disturbances, on projected discs.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
+
 use nalgebra::Vector2;
 use overhead_localizer::track::{MapDisc, Robot, Settings, Status, Tracker};
 use overhead_localizer::vision::Colour;
@@ -50,7 +52,7 @@ fn distance(track: &overhead_localizer::track::Track, pose: Pose2) -> f64 {
 /// Two robots that drive past each other with `gap` (m) between their bodies at the nearest point, at time zero.
 fn encounter(random: &mut Random, gap: f64) -> impl Fn(f64) -> [Pose2; 2] + use<> {
     let headings = loop {
-        let headings = [random.within(-3.14, 3.14), random.within(-3.14, 3.14)];
+        let headings = [random.within(-3.0, 3.0), random.within(-3.0, 3.0)];
         if (headings[0].sin() - headings[1].sin()).hypot(headings[0].cos() - headings[1].cos()) > 0.4 {
             break headings;
         }

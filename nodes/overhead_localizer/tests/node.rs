@@ -1,5 +1,7 @@
 //! The node core from images to messages, and what it makes of bad ones.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
+
 use overhead_localizer::description;
 use trench_config::params::{Source as Given, resolve};
 use trench_config::{ConfigError, Origin};
@@ -207,7 +209,7 @@ fn detections_serve_as_well_as_images() {
         let broken = detections(2, |discs| change(&mut discs[1]));
         assert_eq!(send(core.as_mut(), 2, &broken).published::<TeamState>(0), []);
     }
-    let many = detections(2, |discs| *discs = vec![discs[0].clone(); 5000]);
+    let many = detections(2, |discs| *discs = vec![discs[0]; 5000]);
     assert_eq!(send(core.as_mut(), 2, &many).published::<TeamState>(0), []);
     // Far outside any image: no place in the map, no trouble.
     let far = detections(2, |discs| discs[0].u = 1e300);

@@ -71,6 +71,7 @@ pub(super) fn pair(discs: &[MapDisc], pad: &Pad, tolerance: f64, support: impl F
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::FRAC_PI_2;
 
     fn discs(poses: &[Pose2]) -> Vec<MapDisc> {
         let two = |pose: &Pose2| {
@@ -84,7 +85,7 @@ mod tests {
     fn pads_of_touching_robots_are_not_crossed() {
         // Two robots side by side, the second turned back to front and placed so that each yellow disc is also 77 mm from
         // the other's blue one: only what is expected tells which pads there are.
-        let robots = [Pose2 { x: 1.0, y: 1.0, theta: 1.570_8 }, Pose2 { x: 1.077, y: 1.0, theta: -1.570_8 }];
+        let robots = [Pose2 { x: 1.0, y: 1.0, theta: FRAC_PI_2 }, Pose2 { x: 1.077, y: 1.0, theta: -FRAC_PI_2 }];
         let expected_at = |poses: &'static [(f64, f64)]| {
             move |pose: Pose2| {
                 let near = poses.iter().any(|(x, y)| (pose.x - x).abs() + (pose.y - y).abs() < 0.01);

@@ -68,7 +68,8 @@ pub(super) fn measure<const RED: usize>(tracer: &Tracer<'_, RED>, extent: Extent
 /// The median chroma of sixteen pixels around the disc.
 fn surroundings<const RED: usize>(tracer: &Tracer<'_, RED>, centre: [f64; 2], reach: [f64; 2]) -> i32 {
     // Cosines of multiples of 22.5 degrees.
-    const QUARTER: [f64; 5] = [1.0, 0.923_879_532_511_286_7, 0.707_106_781_186_547_6, 0.382_683_432_365_089_8, 0.0];
+    const QUARTER: [f64; 5] =
+        [1.0, 0.923_879_532_511_286_7, std::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_8, 0.0];
     let mut samples = [0_i32; 16];
     for (index, sample) in samples.iter_mut().enumerate() {
         let within = index % 4;
