@@ -49,7 +49,7 @@ fn motion(map: &Map<'_>) -> Result<Motion, ConfigError> {
 }
 
 fn queues(node: &Node) -> Result<Vec<QueuePlan>, ConfigError> {
-    let queues: Vec<QueuePlan> = node.list()?.iter().map(queue).collect::<Result<_, _>>()?;
+    let mut queues: Vec<QueuePlan> = node.list()?.iter().map(queue).collect::<Result<_, _>>()?;
     if queues.is_empty() {
         return Err(node.error("a formation without segments", "give at least one queue"));
     }
@@ -57,6 +57,7 @@ fn queues(node: &Node) -> Result<Vec<QueuePlan>, ConfigError> {
     if (total - 1.0).abs() > SHARES {
         return Err(node.error(format!("the shares add up to {total}"), "make them add up to 1"));
     }
+    queues.iter_mut().for_each(|queue| queue.share /= total);
     Ok(queues)
 }
 

@@ -205,7 +205,14 @@ impl LeaderAssignment {
             .filter(|robot| self.settings.robots.contains(&robot.name))
             .map(|robot| (robot.name.clone(), carrier.from_map(Vector2::new(robot.x, robot.y))))
             .collect();
-        self.seats = organise(&self.settings.plan, &robots, &self.seats, self.settings.keep_margin);
+        match organise(&self.settings.plan, &robots, &self.seats, self.settings.keep_margin) {
+            Ok(seats) => self.seats = seats,
+            Err(error) => {
+                self.health.set("assignment", Condition::Error, error.to_string());
+                sink.log(Level::Error, &format!("the assignment stays as it is: {error}"));
+                return;
+            }
+        }
         let header = Header { stamp: at.ros.into(), frame_id: self.settings.plan.frame.id().to_owned() };
         let epoch = self.assignment.as_ref().map_or(0, |old| old.epoch) + 1;
         let formation_hash = self.settings.plan.message(Header::default()).hash;

@@ -1,7 +1,7 @@
 //! Robots to queues and places, teams to chains.
 
 use trench_formation::Vector2;
-use trench_formation::assignment::{keeps, solve, split};
+use trench_formation::assignment::{AssignmentError, CostMatrix, Hysteresis, reassign, robots_per_queue};
 use trench_formation::chain::{Candidate, order};
 use trench_msgs::msg::{Assignment, Member};
 use trench_plan::Plan;
@@ -54,57 +54,51 @@ impl Seated {
 /// the sum of squared distances to the starts of the virtual points is least. The present seats stay unless the best
 /// ones are shorter by the fraction `keep_margin`. Ordered by queue, then rank.
 ///
-/// Robots beyond the places of the plan get none; the settings refuse such teams.
-#[must_use]
-pub fn organise(plan: &Plan, robots: &[(String, Vector2<f64>)], present: &[Seated], keep_margin: f64) -> Vec<Seated> {
-    let open = open_places(plan, robots.len());
-    let robots = &robots[..robots.len().min(open.len())];
-    let start = |(queue, place): (usize, usize)| {
+/// # Errors
+/// When there are more robots than places, or a position is not finite.
+pub fn organise(
+    plan: &Plan,
+    robots: &[(String, Vector2<f64>)],
+    present: &[Seated],
+    keep_margin: f64,
+) -> Result<Vec<Seated>, AssignmentError> {
+    let open = open_places(plan, robots.len())?;
+    let start = |&(queue, place): &(usize, usize)| {
         let queue = &plan.queues[queue];
         queue.curve.at(queue.places[place].start).point
     };
-    let starts: Vec<Vector2<f64>> = open.iter().map(|&place| start(place)).collect();
-    let cost = |robot: usize, place: usize| (robots[robot].1 - starts[place]).norm_squared();
-    let best = solve(robots.len(), open.len(), cost);
-    let kept = present_columns(robots, &open, present).filter(|columns| {
-        let present: f64 = columns.iter().enumerate().map(|(robot, &place)| cost(robot, place)).sum();
-        keeps(present, best.cost, keep_margin, NOISE * robots.len() as f64)
-    });
-    let columns = kept.unwrap_or(best.column_of);
+    let starts: Vec<Vector2<f64>> = open.iter().map(start).collect();
+    let costs = robots.iter().flat_map(|(_, robot)| starts.iter().map(move |start| (robot - start).norm_squared()));
+    let costs = CostMatrix::new(costs.collect(), robots.len(), open.len())?;
+    let margin = Hysteresis { relative: keep_margin, absolute: NOISE * robots.len() as f64 };
+    let columns = reassign(&costs, &present_columns(robots, &open, present), margin)?;
     let seats: Vec<(usize, usize)> = columns.into_iter().map(|column| open[column]).collect();
-    (0..plan.queues.len()).flat_map(|queue| chain(plan, queue, robots, &seats)).collect()
+    Ok((0..plan.queues.len()).flat_map(|queue| chain(plan, queue, robots, &seats)).collect())
 }
 
 /// The places that are filled when `robots` robots take part: of each queue as many as its share gives it, then whatever
 /// is left of the others.
-fn open_places(plan: &Plan, robots: usize) -> Vec<(usize, usize)> {
+fn open_places(plan: &Plan, robots: usize) -> Result<Vec<(usize, usize)>, AssignmentError> {
     let shares: Vec<f64> = plan.queues.iter().map(|queue| queue.share).collect();
-    let counts = split(robots, &shares);
-    let places = |queue: usize| plan.queues[queue].places.len();
+    let counts = robots_per_queue(&shares, robots)?;
+    let filled = |queue: usize| counts[queue].min(plan.queues[queue].places.len());
     let queues = 0..plan.queues.len();
-    let mut open: Vec<(usize, usize)> = queues
-        .clone()
-        .flat_map(|queue| (0..counts[queue].min(places(queue))).map(move |place| (queue, place)))
-        .collect();
+    let mut open: Vec<(usize, usize)> =
+        queues.clone().flat_map(|queue| (0..filled(queue)).map(move |place| (queue, place))).collect();
     let missing = robots.saturating_sub(open.len());
-    let spare =
-        queues.flat_map(|queue| (counts[queue].min(places(queue))..places(queue)).map(move |place| (queue, place)));
+    let places = |queue: usize| plan.queues[queue].places.len();
+    let spare = queues.flat_map(|queue| (filled(queue)..places(queue)).map(move |place| (queue, place)));
     open.extend(spare.take(missing));
-    open
+    Ok(open)
 }
 
-/// The columns that the present seats mean, if they seat exactly these robots on open places.
-fn present_columns(
-    robots: &[(String, Vector2<f64>)],
-    open: &[(usize, usize)],
-    present: &[Seated],
-) -> Option<Vec<usize>> {
+/// The columns that the present seats mean; none unless they seat exactly these robots on open places.
+fn present_columns(robots: &[(String, Vector2<f64>)], open: &[(usize, usize)], present: &[Seated]) -> Vec<usize> {
     let column = |(name, _): &(String, Vector2<f64>)| {
         let seat = present.iter().find(|seat| seat.robot == *name)?;
         open.iter().position(|place| *place == (seat.queue, seat.place))
     };
-    let columns: Vec<usize> = robots.iter().map(column).collect::<Option<_>>()?;
-    (present.len() == robots.len()).then_some(columns)
+    robots.iter().map(column).collect::<Option<_>>().unwrap_or_default()
 }
 
 /// The robots of one queue in the order of 6.2.1.
@@ -147,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_square_of_4_6() {
-        let seats = organise(&plan("square"), &team(&SQUARE), &[], 0.2);
+        let seats = organise(&plan("square"), &team(&SQUARE), &[], 0.2).unwrap();
         let told: Vec<_> = seats.iter().map(|seat| (seat.robot.as_str(), seat.queue, seat.place, seat.rank)).collect();
         let expected = [("robot2", 0, 1, 1), ("robot1", 0, 0, 2), ("robot4", 1, 1, 1), ("robot3", 1, 0, 2)];
         assert_eq!(told, expected, "robots nearest to the vertex (1.275, ..) lead their chains");
@@ -158,8 +152,9 @@ mod tests {
     fn noise_does_not_flap() {
         let plan = plan("square");
         // Two robots nearly as far from each other's places.
-        let before = organise(&plan, &team(&[(0.9, 0.501), (0.9, 0.2), (0.2, 1.6), (0.9, 1.5)]), &[], 0.2);
-        let after = organise(&plan, &team(&[(0.901, 0.5), (0.899, 0.2), (0.2, 1.6), (0.9, 1.5)]), &before, 0.2);
+        let before = organise(&plan, &team(&[(0.9, 0.501), (0.9, 0.2), (0.2, 1.6), (0.9, 1.5)]), &[], 0.2).unwrap();
+        let after =
+            organise(&plan, &team(&[(0.901, 0.5), (0.899, 0.2), (0.2, 1.6), (0.9, 1.5)]), &before, 0.2).unwrap();
         let places = |seats: &[Seated]| -> Vec<_> {
             let mut all: Vec<_> = seats.iter().map(|seat| (seat.robot.clone(), seat.queue, seat.place)).collect();
             all.sort();
@@ -169,15 +164,22 @@ mod tests {
     }
 
     #[test]
+    fn more_robots_than_places_and_robots_nowhere() {
+        let five = team(&[SQUARE.as_slice(), &[(1.0, 1.0)]].concat());
+        assert!(organise(&plan("square"), &five, &[], 0.2).is_err());
+        assert!(organise(&plan("square"), &team(&[(f64::NAN, 0.0)]), &[], 0.2).is_err());
+    }
+
+    #[test]
     fn fewer_robots_than_places() {
-        let seats = organise(&plan("square"), &team(&SQUARE[..3]), &[], 0.2);
+        let seats = organise(&plan("square"), &team(&SQUARE[..3]), &[], 0.2).unwrap();
         assert_eq!(seats.len(), 3);
     }
 
     #[test]
     fn an_assignment_tells_its_seats() {
         let plan = plan("triangle");
-        let seats = organise(&plan, &team(&SQUARE[..3]), &[], 0.2);
+        let seats = organise(&plan, &team(&SQUARE[..3]), &[], 0.2).unwrap();
         let assignment = Assignment { members: seats.iter().map(Seated::member).collect(), ..Default::default() };
         assert_eq!(Seated::of_assignment(&plan, &assignment), seats);
         let mut foreign = assignment;
@@ -192,7 +194,7 @@ mod tests {
         ) {
             let plan = plan("square");
             let robots = team(&points);
-            let seats = organise(&plan, &robots, &[], keep);
+            let seats = organise(&plan, &robots, &[], keep).unwrap();
             prop_assert_eq!(seats.len(), robots.len());
             let mut places: Vec<_> = seats.iter().map(|seat| (seat.queue, seat.place)).collect();
             places.sort_unstable();
@@ -202,7 +204,7 @@ mod tests {
                 prop_assert_eq!(pair[1].rank, pair[0].rank + 1);
                 prop_assert_eq!(pair[1].leader.as_ref(), Some(&pair[0].robot));
             }
-            prop_assert_eq!(organise(&plan, &robots, &seats, keep), seats);
+            prop_assert_eq!(organise(&plan, &robots, &seats, keep).unwrap(), seats);
         }
     }
 }
