@@ -1,110 +1,125 @@
-//! Chains: the order of a team into leader-follower pairs, by the rule of 6.2.1.
+//! Chains of leader-follower pairs (6.2.1) and how they change (8.4, A.22).
+mod organise;
+
+pub use organise::organise;
 
 use nalgebra::Vector2;
+use thiserror::Error;
 
-/// Distances that differ by less than this are equal, m: the tie-breaks of 6.2.1 would never act on measured positions
-/// otherwise.
-const TIE: f64 = 1e-9;
-
-/// A robot that is to be put in order.
+/// A robot of a team.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate<'a> {
-    /// Its name: the last tie-break, so that every robot computes the same chain.
+pub struct Robot<'a> {
+    /// Unlike any other's.
     pub name: &'a str,
-    /// Its position, m.
+    /// Centre, m, frame `map`.
     pub position: Vector2<f64>,
-    /// Its distance from the segment, m.
-    pub segment_distance: f64,
 }
 
-/// Indices of `team` in the order r1, r2, ... of 6.2.1: r1 is the robot nearest to the team goal; the robot nearest to r1
-/// becomes its follower r2, and so on. Ties go to the robot nearer to the segment, then to the lower name.
-pub fn order(team: &[Candidate<'_>], team_goal: Vector2<f64>) -> Vec<usize> {
-    let mut left: Vec<usize> = (0..team.len()).collect();
-    let mut chain = Vec::with_capacity(team.len());
-    let mut ahead = team_goal;
-    while let Some(next) = nearest(team, &left, ahead) {
-        ahead = team[left[next]].position;
-        chain.push(left.remove(next));
-    }
-    chain
+/// Why a team cannot be a chain.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ChainError {
+    /// A position that is NaN or infinite.
+    #[error("the position of robot `{0}` is not finite: it must be localised before the team is organised")]
+    NotFinite(String),
+    /// A team goal that is NaN or infinite.
+    #[error("the team goal is not finite: give its coordinates in metres")]
+    GoalNotFinite,
+    /// Two robots of one name.
+    #[error("two robots are named `{0}`: give each its own name")]
+    DuplicateName(String),
+    /// A robot that is not there.
+    #[error("robot `{0}` is not in the chain")]
+    Unknown(String),
 }
 
-/// Index into `left` of the robot that follows what is at `ahead`.
-fn nearest(team: &[Candidate<'_>], left: &[usize], ahead: Vector2<f64>) -> Option<usize> {
-    let distance = |candidate: &Candidate<'_>| (candidate.position - ahead).norm();
-    let least = left.iter().map(|&index| distance(&team[index])).min_by(f64::total_cmp)?;
-    let tied = left.iter().enumerate().filter(|(_, index)| distance(&team[**index]) <= least + TIE);
-    let beaten_by = |a: &Candidate<'_>, b: &Candidate<'_>| {
-        let nearer = a.segment_distance - b.segment_distance;
-        if nearer.abs() > TIE { nearer.total_cmp(&0.0) } else { a.name.cmp(b.name) }
-    };
-    tied.min_by(|(_, a), (_, b)| beaten_by(&team[**a], &team[**b])).map(|(place, _)| place)
+/// Whom a robot follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Leader<'a> {
+    /// The team goal: this is r1, the chain leader.
+    TeamGoal,
+    /// The robot of this name.
+    Robot(&'a str),
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
+/// A team in order: r1, the chain leader, first.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Chain {
+    names: Vec<String>,
+}
 
-    fn names(team: &[Candidate<'_>], goal: Vector2<f64>) -> Vec<String> {
-        order(team, goal).into_iter().map(|index| team[index].name.to_owned()).collect()
+impl Chain {
+    /// Names by rank, the chain leader first.
+    pub fn names(&self) -> &[String] {
+        &self.names
     }
 
-    fn candidate(name: &str, x: f64, y: f64) -> Candidate<'_> {
-        // The segment of 6.5 and 7.10 is the diagonal y = x.
-        Candidate { name, position: Vector2::new(x, y), segment_distance: (x - y).abs() / core::f64::consts::SQRT_2 }
+    /// Rank of a robot, 1 for the chain leader.
+    pub fn rank(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|other| other == name).map(|index| index + 1)
     }
 
-    #[test]
-    fn the_team_of_table_6_1() {
-        let table = [
-            ("r1", 26.0026, 29.7094),
-            ("r2", 27.8260, 19.8633),
-            ("r3", 25.4281, 16.7758),
-            ("r4", 14.8357, 21.3381),
-            ("r5", 14.2419, 15.1141),
-            ("r6", 13.7641, 8.8730),
-            ("r7", 12.3089, 4.2053),
-            ("r8", 9.7197, 1.0574),
-            ("r9", 1.5191, 3.0657),
-            ("r10", 0.7206, -1.0582),
-        ];
-        let team: Vec<Candidate<'_>> = table.iter().map(|&(name, x, y)| candidate(name, x, y)).collect();
-        let expected = ["r1", "r2", "r3", "r5", "r4", "r6", "r7", "r8", "r9", "r10"];
-        assert_eq!(names(&team, Vector2::new(70.0, 70.0)), expected);
-    }
-
-    #[test]
-    fn ties_go_to_the_nearer_to_the_segment_then_to_the_lower_name() {
-        let team = [candidate("c", 0.0, 1.0), candidate("b", 1.0, 0.0), candidate("a", 0.5, -0.5)];
-        // b and c are mirror images across the segment y = x, as near to it as each other: the name decides.
-        assert_eq!(names(&team, Vector2::zeros())[0], "a");
-        assert_eq!(names(&team[..2], Vector2::zeros()), ["b", "c"]);
-        let team = [candidate("a", 0.0, 2.0_f64.sqrt()), candidate("b", 1.0, 1.0)];
-        assert_eq!(names(&team, Vector2::zeros()), ["b", "a"], "b is on the segment");
-    }
-
-    #[test]
-    fn nobody_is_no_chain() {
-        assert!(order(&[], Vector2::zeros()).is_empty());
-    }
-
-    proptest! {
-        #[test]
-        fn everyone_once_whatever_the_order_they_are_named_in(
-            points in proptest::collection::vec((-5.0..5.0_f64, -5.0..5.0_f64), 1..12), shift in 0_usize..12,
-        ) {
-            let names_: Vec<String> = (0..points.len()).map(|index| format!("robot{index:02}")).collect();
-            let mut team: Vec<Candidate<'_>> =
-                points.iter().zip(&names_).map(|(&(x, y), name)| candidate(name, x, y)).collect();
-            let chain = names(&team, Vector2::zeros());
-            let mut sorted = chain.clone();
-            sorted.sort();
-            prop_assert_eq!(&sorted, &names_);
-            let by = shift % team.len();
-            team.rotate_left(by);
-            prop_assert_eq!(names(&team, Vector2::zeros()), chain);
+    /// Whom a robot follows; `None` if it is not in the chain.
+    pub fn leader(&self, name: &str) -> Option<Leader<'_>> {
+        match self.rank(name)? {
+            1 => Some(Leader::TeamGoal),
+            rank => Some(Leader::Robot(&self.names[rank - 2])),
         }
     }
+
+    /// A robot quits: the one behind it follows the one ahead of it, no other pair changes (A.22, case 2.1).
+    ///
+    /// # Errors
+    /// A robot that is not in the chain.
+    pub fn quit(&mut self, name: &str) -> Result<(), ChainError> {
+        let rank = self.rank(name).ok_or_else(|| ChainError::Unknown(name.to_owned()))?;
+        self.names.remove(rank - 1);
+        Ok(())
+    }
+
+    /// A robot joins where it lengthens the chain least, measured from the team goal along the pairs; to the rear of
+    /// equals. The order of the others stays, so one pair at most is taken apart (A.22, case 2.2). `robots` has at
+    /// least the members and the newcomer.
+    ///
+    /// # Errors
+    /// A newcomer who is already a member; positions that are missing or not finite; two robots of one name.
+    pub fn join(&mut self, newcomer: &str, robots: &[Robot<'_>], goal: Vector2<f64>) -> Result<(), ChainError> {
+        check(robots)?;
+        if self.rank(newcomer).is_some() {
+            return Err(ChainError::DuplicateName(newcomer.to_owned()));
+        }
+        let position = |name: &str| {
+            let robot = robots.iter().find(|robot| robot.name == name);
+            robot.map(|robot| robot.position).ok_or_else(|| ChainError::Unknown(name.to_owned()))
+        };
+        let own = position(newcomer)?;
+        let (mut best, mut ahead) = ((f64::INFINITY, 0), goal);
+        for index in 0..=self.names.len() {
+            let detour = match self.names.get(index) {
+                Some(behind) => {
+                    let behind = position(behind)?;
+                    let detour = (own - ahead).norm() + (behind - own).norm() - (behind - ahead).norm();
+                    ahead = behind;
+                    detour
+                }
+                None => (own - ahead).norm(),
+            };
+            if detour <= best.0 {
+                best = (detour, index);
+            }
+        }
+        self.names.insert(best.1, newcomer.to_owned());
+        Ok(())
+    }
+}
+
+fn check(robots: &[Robot<'_>]) -> Result<(), ChainError> {
+    for (index, robot) in robots.iter().enumerate() {
+        if !(robot.position.x.is_finite() && robot.position.y.is_finite()) {
+            return Err(ChainError::NotFinite(robot.name.to_owned()));
+        }
+        if robots[..index].iter().any(|other| other.name == robot.name) {
+            return Err(ChainError::DuplicateName(robot.name.to_owned()));
+        }
+    }
+    Ok(())
 }
