@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use trench_core::{RosTime, Sink, Steady};
+use trench_radio::framing::DELIMITER;
 use trench_radio::{COUNTER_LIMIT, Key, LinkFrame, Packet, Payload};
 
 /// The one byte stream of the bridge.
@@ -61,7 +62,7 @@ impl Downlink {
     /// How long a commands frame for so many robots keeps the line busy, s.
     pub(crate) fn duration(&self, robots: usize) -> f64 {
         let tag = if self.key.is_some() { 8 } else { 0 };
-        self.byte_time * (18 + 4 * robots + robots.div_ceil(4) + tag) as f64
+        self.byte_time * (19 + 4 * robots + robots.div_ceil(4) + tag) as f64
     }
 
     /// When the packet was sent whose counter ends with these 16 bits.
@@ -89,6 +90,8 @@ impl Downlink {
         self.packet.clear();
         self.line.clear();
         Packet { relayed: 0, counter: self.counter, payload }.encode(self.key.as_ref(), &mut self.packet);
+        // A delimiter first: garbage that the base station may have heard does not spoil this frame.
+        self.line.push(DELIMITER);
         LinkFrame::Downlink { packet: &self.packet }.encode(&mut self.line);
         sink.write_bytes(STREAM, &self.line);
         self.free_at = self.free_at.max(now).plus_seconds(self.byte_time * self.line.len() as f64);
