@@ -117,6 +117,7 @@ impl Node {
                     self.ports.log(Level::Debug, &text);
                     self.take_messages(port);
                 }
+                Ok(false) if self.subscriptions[port].is_due(now) => self.take_messages(port),
                 Ok(false) => {}
                 Err(problem) => self.ports.warn(&format!("{problem}; the network is used instead")),
             }
@@ -149,6 +150,7 @@ impl Node {
         let ports = &mut self.ports;
         let mut problems = Vec::new();
         clock.drain(
+            ports.clock.now().steady,
             |_, cdr| {
                 if let Ok(message) = ClockMessage::decode(cdr) {
                     ports.clock.set(RosTime::from(&message.clock));
@@ -164,6 +166,7 @@ impl Node {
         let Some(subscription) = self.subscriptions.get_mut(port) else { return };
         let mut problems = Vec::new();
         subscription.drain(
+            ports.clock.now().steady,
             |source, cdr| core.handle(ports.clock.now(), Event::Message { port, source, cdr }, ports),
             |problem| problems.push(problem),
         );

@@ -3,6 +3,7 @@
 mod caller;
 mod connect;
 mod deliver;
+mod early;
 mod parameters;
 mod ports;
 mod publication;

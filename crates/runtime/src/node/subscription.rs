@@ -1,15 +1,19 @@
 //! A topic that the node reads.
 
+use super::early::Early;
 use crate::transport::Delivered;
 use crate::transport::dds::{NetworkReader, NetworkSample, TopicName};
-use crate::transport::shared_memory::{Host, SharedReader, SharedTopic};
+use crate::transport::shared_memory::{Host, SharedReader, SharedSample, SharedTopic};
 use rustdds::mio1::{Registry, Token};
 use std::collections::VecDeque;
-use trench_core::{Qos, Reliability, Source, Steady};
+use trench_core::{Durability, Qos, Reliability, Source, Steady};
 
 /// How often, and for how long after a writer was seen, shared memory is looked for.
 const RETRY_SECONDS: f64 = 0.2;
 const RETRIES: u32 = 25;
+
+/// How long messages that shared memory missed may take over the network, whose repairs come every 0.1 s.
+const GAP_SECONDS: f64 = 0.3;
 
 /// Both ends of the same subscription: this host's and the network's.
 pub(crate) struct Subscription {
@@ -22,6 +26,9 @@ pub(crate) struct Subscription {
     local_token: Token,
     retry: Option<(Steady, u32)>,
     delivered: Delivered,
+    /// A message of shared memory that waits, until some time, for the network to bring those before it.
+    pending: Option<(SharedSample, Steady)>,
+    early: Early,
 }
 
 /// What a subscription reads.
@@ -41,7 +48,19 @@ impl Subscription {
         let Reading { topic, network_name, shared_name, qos } = reading;
         let retry = Some((Steady(0), 1));
         let delivered = Delivered::default();
-        Self { topic, network_name, shared_name, qos, network, local: None, local_token, retry, delivered }
+        Self {
+            topic,
+            network_name,
+            shared_name,
+            qos,
+            network,
+            local: None,
+            local_token,
+            retry,
+            delivered,
+            pending: None,
+            early: Early::default(),
+        }
     }
 
     /// The absolute name.
@@ -67,9 +86,9 @@ impl Subscription {
         }
     }
 
-    /// When [`Subscription::open_local`] should be called.
+    /// When [`Subscription::open_local`] or [`Subscription::drain`] should be called.
     pub(crate) fn next_retry(&self) -> Option<Steady> {
-        self.retry.map(|(at, _)| at)
+        self.retry.map(|(at, _)| at).into_iter().chain(self.next_release()).min()
     }
 
     /// Opens the topic's shared memory if it is time to and a process of this host offers it; true when it did.
@@ -87,11 +106,26 @@ impl Subscription {
         Ok(self.local.is_some())
     }
 
+    /// Whether time alone makes [`Subscription::drain`] give messages now.
+    pub(crate) fn is_due(&self, now: Steady) -> bool {
+        self.next_release().is_some_and(|at| at <= now)
+    }
+
+    fn next_release(&self) -> Option<Steady> {
+        let pending = self.pending.as_ref().map(|(_, until)| *until);
+        self.early.until().into_iter().chain(pending).min()
+    }
+
     /// Gives all waiting messages to `deliver`, each once and in order; what cannot be read goes to `report`.
     ///
-    /// A writer hands a message to shared memory before the network. So whatever the network has and shared memory had
-    /// not a moment ago may be there now: it is looked at once more before the network's copy is taken.
-    pub(crate) fn drain(&mut self, mut deliver: impl FnMut(Source, &[u8]), mut report: impl FnMut(String)) {
+    /// A writer hands a message to shared memory before the network. So shared memory is looked at after the network
+    /// was, and before the network's copies are taken.
+    pub(crate) fn drain(
+        &mut self,
+        now: Steady,
+        mut deliver: impl FnMut(Source, &[u8]),
+        mut report: impl FnMut(String),
+    ) {
         self.network.clear_wakeup();
         let mut waiting = VecDeque::new();
         while let Some(taken) = self.network.take() {
@@ -100,27 +134,66 @@ impl Subscription {
                 Err(problem) => report(problem),
             }
         }
-        self.drain_local(&mut deliver, &mut report);
-        for NetworkSample { source, cdr, .. } in waiting {
-            if self.delivered.accept(source) {
-                deliver(source, &cdr);
+        self.drain_local(now, &mut deliver, &mut report);
+        for sample in waiting {
+            if self.qos.durability == Durability::TransientLocal && !self.delivered.knows(&sample.source.gid) {
+                self.early.keep(sample, self.qos.depth, now);
+            } else {
+                self.take_network(&sample, &mut deliver);
+            }
+        }
+        if self.early.until().is_some_and(|until| until <= now) {
+            self.release_early(&mut deliver);
+        }
+        // The network may have brought what shared memory was waiting for.
+        self.drain_local(now, &mut deliver, &mut report);
+    }
+
+    fn take_network(&mut self, sample: &NetworkSample, deliver: &mut impl FnMut(Source, &[u8])) {
+        if self.delivered.accept(sample.source) {
+            deliver(sample.source, &sample.cdr);
+        }
+    }
+
+    fn release_early(&mut self, deliver: &mut impl FnMut(Source, &[u8])) {
+        for sample in self.early.release() {
+            self.take_network(&sample, deliver);
+        }
+    }
+
+    fn drain_local(&mut self, now: Steady, deliver: &mut impl FnMut(Source, &[u8]), report: &mut impl FnMut(String)) {
+        if let Some(local) = &self.local {
+            local.clear_wakeup();
+        }
+        while let Some((taken, until)) = self.next_local(now) {
+            let sample = match taken {
+                Ok(sample) => sample,
+                Err(problem) => return report(problem),
+            };
+            if !self.delivered.is_new(sample.source()) {
+                continue;
+            }
+            let reliable = self.qos.reliability == Reliability::Reliable;
+            if reliable && self.delivered.leaves_gap(sample.source()) && now < until {
+                // A reader that has just found shared memory is ahead of the network's last messages.
+                self.pending = Some((sample, until));
+                return;
+            }
+            if self.early.holds(&sample.source().gid) {
+                self.release_early(deliver);
+            }
+            if self.delivered.accept(sample.source()) {
+                deliver(sample.source(), sample.cdr());
             }
         }
     }
 
-    fn drain_local(&mut self, deliver: &mut impl FnMut(Source, &[u8]), report: &mut impl FnMut(String)) {
-        let Some(local) = &self.local else { return };
-        local.clear_wakeup();
-        while let Some(taken) = local.take() {
-            match taken {
-                Ok(sample) if self.delivered.accept(sample.source()) => deliver(sample.source(), sample.cdr()),
-                Ok(_copy) => {}
-                Err(problem) => {
-                    report(problem);
-                    return;
-                }
-            }
+    /// The next message of shared memory and how long it may wait for those before it.
+    fn next_local(&mut self, now: Steady) -> Option<(Result<SharedSample, String>, Steady)> {
+        if let Some((sample, until)) = self.pending.take() {
+            return Some((Ok(sample), until));
         }
+        Some((self.local.as_ref()?.take()?, now.plus_seconds(GAP_SECONDS)))
     }
 }
 

@@ -31,6 +31,16 @@ impl Delivered {
         self.writers.get(&source.gid).is_none_or(|writer| source.sequence > writer.last)
     }
 
+    /// Whether this writer has been heard.
+    pub(crate) fn knows(&self, gid: &[u8; 16]) -> bool {
+        self.writers.contains_key(gid)
+    }
+
+    /// Whether messages of a writer that has been heard are still missing before this one.
+    pub(crate) fn leaves_gap(&self, source: Source) -> bool {
+        self.writers.get(&source.gid).is_some_and(|writer| source.sequence > writer.last + 1)
+    }
+
     /// Takes a message if it is news; false for a copy of one that was delivered.
     pub(crate) fn accept(&mut self, source: Source) -> bool {
         if !self.is_new(source) {
@@ -78,6 +88,8 @@ mod tests {
         check(&mut delivered, 4, false);
         check(&mut delivered, 6, true);
         assert_eq!(delivered.take_lost(), 0, "what was sent before the first message is not lost");
+        assert!(delivered.leaves_gap(source(1, 9)) && !delivered.leaves_gap(source(1, 7)));
+        assert!(!delivered.leaves_gap(source(2, 9)), "an unknown writer's past is not missed");
         check(&mut delivered, 9, true);
         assert_eq!((delivered.take_lost(), delivered.take_lost()), (2, 0));
     }

@@ -8,17 +8,17 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 /// Long enough for discovery on a loaded machine; tests end sooner.
-pub const PATIENCE: Duration = Duration::from_secs(40);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(40);
 
 /// Keeps the processes of one test apart from all others.
 #[derive(Clone)]
-pub struct Island {
+pub(crate) struct Island {
     domain: u16,
     name: String,
 }
 
 /// A node's process with its lines of output.
-pub struct Running {
+pub(crate) struct Running {
     child: Child,
     lines: Receiver<String>,
     errors: Receiver<String>,
@@ -26,20 +26,14 @@ pub struct Running {
 
 impl Island {
     /// `number` must differ between the tests of this package.
-    pub fn new(number: u16) -> Self {
+    pub(crate) fn new(number: u16) -> Self {
         // Below 160, so that a second run at the same time on this host has domains of its own.
         let domain = 40 + number + (std::process::id() % 3) as u16 * 40;
         Self { domain, name: format!("test{}n{number}", std::process::id()) }
     }
 
-    /// The variable that separates the network.
-    #[allow(dead_code, reason = "not every test file of the package needs it")]
-    pub fn domain(&self) -> String {
-        self.domain.to_string()
-    }
-
     /// A command of an example with these arguments.
-    pub fn command(&self, example: &str, arguments: &str) -> Command {
+    pub(crate) fn command(&self, example: &str, arguments: &str) -> Command {
         let deps = std::env::current_exe().unwrap();
         let program: PathBuf = deps.parent().unwrap().parent().unwrap().join("examples").join(example);
         let mut command = Command::new(program);
@@ -51,7 +45,7 @@ impl Island {
     }
 
     /// Starts an example.
-    pub fn start(&self, example: &str, arguments: &str) -> Running {
+    pub(crate) fn start(&self, example: &str, arguments: &str) -> Running {
         let mut child = self.command(example, arguments).spawn().unwrap();
         let lines = follow(child.stdout.take().unwrap());
         let errors = follow(child.stderr.take().unwrap());
@@ -61,12 +55,12 @@ impl Island {
 
 impl Running {
     /// The next line of output.
-    pub fn line(&self) -> String {
+    pub(crate) fn line(&self) -> String {
         self.lines.recv_timeout(PATIENCE).expect("a line of output in time")
     }
 
     /// Waits until the log says `text`.
-    pub fn wait_for_log(&self, text: &str) {
+    pub(crate) fn wait_for_log(&self, text: &str) {
         let start = Instant::now();
         while start.elapsed() < PATIENCE {
             match self.errors.recv_timeout(PATIENCE) {
@@ -79,13 +73,13 @@ impl Running {
     }
 
     /// Sends a signal.
-    pub fn signal(&self, name: &str) {
+    pub(crate) fn signal(&self, name: &str) {
         let status = Command::new("kill").args(["-s", name, &self.child.id().to_string()]).status().unwrap();
         assert!(status.success());
     }
 
     /// Waits for the end and gives the exit code (128 + the signal that killed it) and all further output.
-    pub fn end(mut self) -> (i32, Vec<String>, Vec<String>) {
+    pub(crate) fn end(mut self) -> (i32, Vec<String>, Vec<String>) {
         let start = Instant::now();
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {

@@ -11,7 +11,20 @@ const UNREAD: i32 = 4096;
 /// What a writer offers. A write never blocks (zero blocking time): what does not fit the send window waits in the
 /// writer's own queue.
 pub(crate) fn writer(qos: Qos) -> QosPolicies {
-    common(qos).history(policy::History::KeepLast { depth: depth(qos) }).build()
+    let kept = common(qos).history(policy::History::KeepLast { depth: depth(qos) });
+    match qos.durability {
+        Durability::Volatile => kept.build(),
+        // RustDDS keeps a latched writer's whole past while nobody reads it, up to this limit, which is also how many
+        // messages may be unacknowledged.
+        Durability::TransientLocal => kept.resource_limits(limits(depth(qos).max(LATCHED))).build(),
+    }
+}
+
+/// Messages of a latched topic that may be on their way at once.
+const LATCHED: i32 = 32;
+
+fn limits(max_samples: i32) -> policy::ResourceLimits {
+    policy::ResourceLimits { max_samples, max_instances: 1, max_samples_per_instance: max_samples }
 }
 
 /// What a reader asks for. The history is the cache between RustDDS's thread and the event loop, not a ROS queue, hence

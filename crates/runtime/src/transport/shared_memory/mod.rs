@@ -10,7 +10,7 @@ mod reader;
 mod writer;
 
 pub(crate) use host::{Host, SharedTopic};
-pub(crate) use reader::SharedReader;
+pub(crate) use reader::{SharedReader, SharedSample};
 pub(crate) use writer::SharedWriter;
 
 use header::Header;

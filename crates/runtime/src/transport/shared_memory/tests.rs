@@ -1,5 +1,4 @@
 use super::*;
-use crate::transport::shared_memory::reader::SharedSample;
 use rustdds::mio1::{Events, Poll, Token};
 use std::ops::Range;
 use std::time::Duration;
