@@ -1,7 +1,9 @@
 //! ROS 2 parameter files and `-p name:=value`, as rcl reads them and rclcpp applies them.
 //!
-//! What applies to a node: entries under its full name beat entries under a wildcard (`/**`, `/*`, `/**/name`); among
-//! equals the last one on the command line wins. A `-p` without a node name counts as an entry under `/**`.
+//! What applies to a node: entries of files under its full name beat entries under a wildcard (`/**`, `/*`, `/**/name`),
+//! and `-p`, meant for the very process, counts like a full name; among equals the last one on the command line wins.
+//! (rcl keeps one list for all of them in which the key that appears first is the weakest: the same for `/**` before
+//! full names before `-p`, but `-p` then loses to a full name as soon as any file before it says `/**`.)
 //! Stricter than ROS 2: a parameter that the node does not declare is an error, since it is nearly always a slip.
 
 mod file;
@@ -58,7 +60,8 @@ pub fn resolve(
     for source in sources {
         let assignments = assignments(source, &mut errors);
         for assignment in assignments {
-            let Some(rank) = pattern::matches(&assignment.node, &full_name) else { continue };
+            let Some(matched) = pattern::matches(&assignment.node, &full_name) else { continue };
+            let rank = if matches!(source, Source::Override { .. }) { Match::FullName } else { matched };
             match check(&assignment, &declared) {
                 Err(error) => errors.push(error),
                 Ok(value) => {

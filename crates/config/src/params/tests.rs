@@ -54,8 +54,10 @@ fn a_full_name_beats_a_wildcard_and_the_last_of_equals_wins() {
         (vec![file(full), file(wildcard)], 2),
         (vec![file(wildcard), file(full), file(other)], 2),
         (vec![file(wildcard), command_line], 5),
-        (vec![command_line, file(wildcard)], 3),
-        (vec![file(full), command_line], 2),
+        (vec![command_line, file(wildcard)], 5),
+        (vec![file(full), command_line], 5),
+        (vec![file(wildcard), file(full), command_line], 5),
+        (vec![command_line, file(full)], 2),
         (vec![command_line, named], 6),
         (vec![file("/*/*: {ros__parameters: {rank: 7}}")], 7),
     ] {
