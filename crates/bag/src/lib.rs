@@ -10,6 +10,7 @@ mod error;
 mod metadata;
 mod qos;
 mod reader;
+pub mod recorder;
 pub mod run;
 mod topic_type;
 mod writer;

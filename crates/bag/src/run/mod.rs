@@ -11,7 +11,7 @@ pub use summary::{Closest, RobotSummary, RunSummary, ShapeSample, SummaryOptions
 pub use track::{GoalSample, Pose, Track};
 
 use std::collections::BTreeMap;
-use trench_msgs::msg::{Assignment, Formation, RunState};
+use trench_msgs::msg::{Assignment, Formation, Member, RunState};
 
 /// One run. All times are seconds since [`Run::t0`].
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -41,19 +41,23 @@ impl Run {
         spans.reduce(|(first, last), (other_first, other_last)| (first.min(other_first), last.max(other_last)))
     }
 
-    /// The vertex a robot makes for, m: that of its queue where it heads the queue's chain, else where its goal came
-    /// to rest.
+    /// The vertex a robot makes for, m: its place in its queue where it is the first to have it, else where its goal
+    /// came to rest.
     #[must_use]
     pub fn vertex(&self, robot: &str) -> Option<[f64; 2]> {
         self.queue_vertex(robot).or_else(|| self.robots.get(robot)?.goals.last().map(GoalSample::resting_place))
     }
 
     fn queue_vertex(&self, robot: &str) -> Option<[f64; 2]> {
-        let member = self.assignment.as_ref()?.members.iter().find(|member| member.robot == robot)?;
+        let members = &self.assignment.as_ref()?.members;
+        let member = members.iter().find(|member| member.robot == robot)?;
+        // Followers in a chain share their leader's vertex but do not stand on it.
+        let has_it = |other: &Member| (other.queue, other.place) == (member.queue, member.place);
+        let is_first = !members.iter().any(|other| has_it(other) && other.rank < member.rank);
         // Vertices of a formation that moves with the target say nothing about the map.
         let formation = self.formation.as_ref().filter(|formation| formation.header.frame_id != "target")?;
-        let vertex = formation.queues.get(member.queue as usize)?.vertices.first()?;
-        (member.rank == 1).then_some([vertex.x, vertex.y])
+        let vertex = formation.queues.get(member.queue as usize)?.vertices.get(member.place as usize)?;
+        is_first.then_some([vertex.x, vertex.y])
     }
 
     /// When the goal points moved: from the first departure to the last arrival, s.

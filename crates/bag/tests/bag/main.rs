@@ -4,5 +4,6 @@
 mod common;
 mod damage;
 mod peers;
+mod recorder;
 mod round_trip;
 mod runs;

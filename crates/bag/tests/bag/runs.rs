@@ -4,9 +4,9 @@ use std::path::Path;
 use trench_bag::run::{CsvError, Run, RunSummary, SummaryOptions, summary};
 use trench_bag::{BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::{Qos, RosTime};
+use trench_msgs::Message;
 use trench_msgs::msg::{Assignment, Formation, Goal, Goals, Member, Point2, Queue, RobotState, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
-use trench_msgs::Message;
 
 const T0: i64 = 1_700_000_000_000_000_000;
 
@@ -36,7 +36,8 @@ fn record(path: &Path) {
     formation.header.frame_id = "map".to_owned();
     formation.queues = [0.0, 0.5].map(|y| Queue { vertices: vec![point(1.0, y)], ..Queue::default() }).to_vec();
     bag.write("/formation", T0 - 1000, &formation);
-    let member = |index| Member { robot: format!("robot{}", index + 1), queue: index, rank: 1, leader: String::new() };
+    let member =
+        |index| Member { robot: format!("robot{}", index + 1), queue: index, rank: 1, place: 0, leader: String::new() };
     bag.write("/assignment", T0 - 900, &Assignment { members: vec![member(0), member(1)], ..Assignment::default() });
     bag.write("/run_state", T0 - 800, &RunState { state: RunState::RUNNING, ..RunState::default() });
     let running = RunState { state: RunState::RUNNING, t0: RosTime(T0).into(), ..RunState::default() };

@@ -1,0 +1,146 @@
+//! The recorder: a node that writes what it hears into a bag.
+//!
+//! It is a node core like any other, so that it runs in a process of its own on whatever transports the process has;
+//! unlike the cores of robots it writes files: that is its output.
+
+mod topics;
+
+use crate::{BagError, BagWriter, Stamp, TopicId, WriteOptions};
+use std::path::Path;
+use topics::subscription;
+use trench_config::{ConfigError, ParameterDescriptor, Parameters};
+use trench_core::{Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink, StartError};
+use trench_core::{Steady, Times};
+
+/// How often the open chunk's age is looked at, s.
+const LOOK: f64 = 0.1;
+/// The exit code when a recording ended early.
+const FAILED: u8 = 1;
+
+/// The recorder as processes make it.
+#[must_use]
+pub fn description() -> NodeDescription {
+    NodeDescription {
+        name: "bag_recorder",
+        about: "Records topics into a bag (MCAP as rosbag2 writes it) until it is stopped.",
+        parameters,
+        build,
+    }
+}
+
+fn parameters() -> Vec<ParameterDescriptor> {
+    vec![
+        ParameterDescriptor::string("output", "", "the new bag's folder, which must not exist").read_only(),
+        ParameterDescriptor::string_list(
+            "topics",
+            &[],
+            "topics to record, NAME or NAME:TYPE (the type only where the stack does not know the name); without any, \
+             all topics of the stack and of its robots, images excepted",
+        )
+        .read_only(),
+        ParameterDescriptor::string_list("robots", &[], "the robots whose topics to record when `topics` is empty")
+            .read_only(),
+    ]
+}
+
+fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let output = parameters.str("output")?;
+    if output.is_empty() {
+        return Err(parameters.error("output", "is empty", "name the new bag's folder").into());
+    }
+    let mut names = parameters.str_list("topics")?.to_vec();
+    if names.is_empty() {
+        names = topics::usual(parameters.str_list("robots")?);
+    }
+    let subscriptions: Result<Vec<_>, _> = names.iter().map(|name| subscription(name)).collect();
+    let subscriptions = subscriptions.map_err(|(problem, remedy)| parameters.error("topics", problem, remedy))?;
+    let writer = BagWriter::create(Path::new(output), WriteOptions::default())
+        .map_err(|error| parameters.error("output", error.to_string(), "name a new folder on a disk with space"))?;
+    Ok(Box::new(Recorder {
+        ids: vec![None; subscriptions.len()],
+        interface: Interface { subscriptions, ..Interface::default() },
+        writer: Some(writer),
+        next_look: Steady::default(),
+    }))
+}
+
+struct Recorder {
+    interface: Interface,
+    /// The bag's topic of each subscription, once it was heard.
+    ids: Vec<Option<TopicId>>,
+    /// Nothing once the bag is finished.
+    writer: Option<BagWriter>,
+    next_look: Steady,
+}
+
+impl NodeCore for Recorder {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        let done = match event {
+            Event::Started => {
+                sink.log(Level::Info, &format!("recording {} topics", self.interface.subscriptions.len()));
+                self.look(at)
+            }
+            Event::Message { port, source, cdr } => {
+                // Time before the epoch is none: a clock that has not started yet.
+                let log_time = u64::try_from(at.ros.0).unwrap_or(0);
+                // 32 bits is what the format has; a count beyond them starts again.
+                let sequence = (source.sequence & u64::from(u32::MAX)) as u32;
+                self.write(port, Stamp { log_time, publish_time: log_time, sequence }, cdr)
+            }
+            Event::Wakeup => self.look(at),
+            Event::Shutdown => return self.finish(sink, true),
+            _ => Ok(()),
+        };
+        if let Err(error) = done {
+            sink.log(Level::Fatal, &error.to_string());
+            self.finish(sink, false);
+            sink.exit(FAILED);
+        }
+    }
+
+    fn next_wakeup(&self) -> Option<Steady> {
+        self.writer.is_some().then_some(self.next_look)
+    }
+
+    fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {
+        Ok(())
+    }
+}
+
+impl Recorder {
+    fn write(&mut self, port: usize, stamp: Stamp, cdr: &[u8]) -> Result<(), BagError> {
+        let (Some(writer), Some(heard), Some(id)) =
+            (&mut self.writer, self.interface.subscriptions.get(port), self.ids.get_mut(port))
+        else {
+            return Ok(());
+        };
+        let topic = match *id {
+            Some(topic) => topic,
+            None => *id.insert(writer.add_topic(&heard.topic, heard.type_info.into(), heard.qos)?),
+        };
+        writer.write(topic, stamp, cdr)
+    }
+
+    fn look(&mut self, at: Times) -> Result<(), BagError> {
+        self.next_look = at.steady.plus_seconds(LOOK);
+        self.writer.as_mut().map_or(Ok(()), BagWriter::flush_if_due)
+    }
+
+    fn finish(&mut self, sink: &mut dyn Sink, is_asked: bool) {
+        let Some(writer) = self.writer.take() else { return };
+        let count = writer.message_count();
+        match writer.finish() {
+            Ok(()) => sink.log(Level::Info, &format!("recorded {count} messages")),
+            Err(error) => {
+                sink.log(Level::Error, &format!("the bag has no index: {error}"));
+                if is_asked {
+                    sink.exit(FAILED);
+                }
+            }
+        }
+    }
+}

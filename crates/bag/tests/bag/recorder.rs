@@ -1,0 +1,74 @@
+//! The recorder core, driven as a process drives it.
+
+use std::collections::BTreeMap;
+use trench_bag::{BagReader, recorder};
+use trench_config::{ConfigError, Origin, ParameterValue, Parameters};
+use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source, StartError, Steady, Times};
+use trench_msgs::msg::RunState;
+use trench_msgs::{Encode, std_msgs};
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, _: &str, _: &str) -> Result<String, ConfigError> {
+        unreachable!("the recorder reads no files")
+    }
+}
+
+fn build(output: &str, topics: &[&str]) -> Result<Box<dyn NodeCore>, StartError> {
+    let description = recorder::description();
+    let mut parameters = Parameters::default();
+    for descriptor in (description.parameters)() {
+        parameters.insert(descriptor.name, descriptor.default, Origin::default());
+    }
+    parameters.insert("output", ParameterValue::String(output.to_owned()), Origin::default());
+    let topics = topics.iter().map(|&topic| topic.to_owned()).collect();
+    parameters.insert("topics", ParameterValue::StringArray(topics), Origin::default());
+    (description.build)(&NodeContext::default(), &parameters, &NoFiles)
+}
+
+fn at(milliseconds: u64) -> Times {
+    let nanoseconds = milliseconds * 1_000_000;
+    Times { ros: RosTime(1_000_000_000 + nanoseconds as i64), steady: Steady(nanoseconds) }
+}
+
+#[test]
+fn what_is_heard_is_in_the_bag() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("heard");
+    let mut core = build(path.to_str().unwrap(), &["/run_state", "/stop:std_msgs/msg/Bool", "/goals"]).unwrap();
+    let mut sink = Outbox::default();
+    core.handle(at(0), Event::Started, &mut sink);
+    let state = RunState { reason: "test".to_owned(), ..RunState::default() }.to_cdr();
+    let stop = std_msgs::Bool { data: true }.to_cdr();
+    let source = |sequence| Source { gid: [1; 16], sequence };
+    core.handle(at(5), Event::Message { port: 0, source: source(1), cdr: &state }, &mut sink);
+    core.handle(at(10), Event::Message { port: 1, source: source(41), cdr: &stop }, &mut sink);
+    // The open chunk is closed by time alone.
+    std::thread::sleep(std::time::Duration::from_millis(600));
+    core.handle(at(700), Event::Wakeup, &mut sink);
+    assert_eq!(BagReader::open(&path).unwrap().message_count(), 2, "a killed recorder loses no more than a second");
+    core.handle(at(800), Event::Shutdown, &mut sink);
+    assert!(!sink.actions.iter().any(|action| matches!(action, Action::Exit(_))), "{:?}", sink.actions);
+    let bag = BagReader::open(&path).unwrap();
+    assert_eq!(bag.damage(), []);
+    let read: Vec<_> = bag.messages().map(Result::unwrap).collect();
+    let found: BTreeMap<_, _> = read.iter().map(|m| (bag.topics()[m.topic].name.as_str(), m)).collect();
+    assert_eq!(found.len(), 2, "a topic that was never heard is not in the bag");
+    assert_eq!(&found["/run_state"][..], state);
+    assert_eq!((found["/stop"].log_time, found["/stop"].sequence), (1_010_000_000, 41));
+}
+
+#[test]
+fn wrong_parameters_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let taken = folder.path().to_str().unwrap().to_owned();
+    let check = |output: &str, topics: &[&str], expected: &str| {
+        let error = build(output, topics).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(error.contains(expected), "{error:?} does not say {expected:?}");
+    };
+    check("", &[], "name the new bag's folder");
+    check(&taken, &["/goals"], "exists already");
+    check(&format!("{taken}/new"), &["/unknown"], "the type of /unknown is not known");
+    assert!(!folder.path().join("new").exists(), "nothing is left behind");
+}
