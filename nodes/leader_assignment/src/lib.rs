@@ -15,6 +15,6 @@ mod settings;
 mod virtual_point;
 
 pub use crate::core::{LeaderAssignment, description};
-pub use organise::{Seated, organise};
+pub use organise::{OrganiseError, Seated, organise};
 pub use run_machine::{Request, RunMachine, state_name};
 pub use virtual_point::{Carrier, VirtualPoint, virtual_point};

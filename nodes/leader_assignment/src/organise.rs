@@ -1,13 +1,27 @@
 //! Robots to queues and places, teams to chains.
 
+use nalgebra::Isometry2;
+use std::collections::BTreeMap;
 use trench_formation::Vector2;
 use trench_formation::assignment::{AssignmentError, CostMatrix, Hysteresis, reassign, robots_per_queue};
-use trench_formation::chain::{Candidate, order};
+use trench_formation::chain::{self, ChainError, Robot};
+use trench_formation::curve::Placed;
 use trench_msgs::msg::{Assignment, Member};
 use trench_plan::Plan;
 
 /// A new assignment must be shorter by this much, m^2 a robot, besides the relative margin.
 const NOISE: f64 = 0.01;
+
+/// Why robots get no places.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OrganiseError {
+    /// No assignment.
+    #[error(transparent)]
+    Assignment(#[from] AssignmentError),
+    /// No chain.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+}
 
 /// A robot with its place and its rank.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,7 +75,7 @@ pub fn organise(
     robots: &[(String, Vector2<f64>)],
     present: &[Seated],
     keep_margin: f64,
-) -> Result<Vec<Seated>, AssignmentError> {
+) -> Result<Vec<Seated>, OrganiseError> {
     let open = open_places(plan, robots.len())?;
     let start = |&(queue, place): &(usize, usize)| {
         let queue = &plan.queues[queue];
@@ -73,7 +87,8 @@ pub fn organise(
     let margin = Hysteresis { relative: keep_margin, absolute: NOISE * robots.len() as f64 };
     let columns = reassign(&costs, &present_columns(robots, &open, present), margin)?;
     let seats: Vec<(usize, usize)> = columns.into_iter().map(|column| open[column]).collect();
-    Ok((0..plan.queues.len()).flat_map(|queue| chain(plan, queue, robots, &seats)).collect())
+    let chains = (0..plan.queues.len()).map(|queue| seated_chain(plan, queue, robots, &seats));
+    Ok(chains.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 /// The places that are filled when `robots` robots take part: of each queue as many as its share gives it, then whatever
@@ -102,23 +117,26 @@ fn present_columns(robots: &[(String, Vector2<f64>)], open: &[(usize, usize)], p
 }
 
 /// The robots of one queue in the order of 6.2.1.
-fn chain(plan: &Plan, queue: usize, robots: &[(String, Vector2<f64>)], seats: &[(usize, usize)]) -> Vec<Seated> {
-    let team: Vec<usize> = (0..robots.len()).filter(|&robot| seats[robot].0 == queue).collect();
-    let candidate = |&robot: &usize| {
-        let (name, position) = &robots[robot];
-        let segment_distance = plan.queues[queue].curve.nearest(*position).distance;
-        Candidate { name, position: *position, segment_distance }
-    };
-    let candidates: Vec<Candidate<'_>> = team.iter().map(candidate).collect();
+fn seated_chain(
+    plan: &Plan,
+    queue: usize,
+    robots: &[(String, Vector2<f64>)],
+    seats: &[(usize, usize)],
+) -> Result<Vec<Seated>, OrganiseError> {
+    let team = robots.iter().zip(seats).filter(|(_, seat)| seat.0 == queue);
+    let places: BTreeMap<&str, usize> = team.clone().map(|((name, _), seat)| (name.as_str(), seat.1)).collect();
+    let team: Vec<Robot<'_>> = team.map(|((name, position), _)| Robot { name, position: *position }).collect();
     let team_goal = plan.queues[queue].vertices.first().copied().unwrap_or_default();
+    let segment = Placed::new(&plan.queues[queue].curve, Isometry2::identity());
+    let chain = chain::organise(&team, team_goal, &segment)?;
     let mut leader = None;
     let mut seated = Vec::with_capacity(team.len());
-    for (rank, index) in order(&candidates, team_goal).into_iter().enumerate() {
-        let robot = robots[team[index]].0.clone();
+    for (index, robot) in chain.names().iter().enumerate() {
         let next = leader.replace(robot.clone());
-        seated.push(Seated { robot, queue, place: seats[team[index]].1, rank: rank + 1, leader: next });
+        let place = places.get(robot.as_str()).copied().unwrap_or_default();
+        seated.push(Seated { robot: robot.clone(), queue, place, rank: index + 1, leader: next });
     }
-    seated
+    Ok(seated)
 }
 
 #[cfg(test)]
