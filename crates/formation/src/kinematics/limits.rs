@@ -52,6 +52,12 @@ impl Ramp {
         Limited { value, acted: true }
     }
 
+    /// How far the centre of the robot travels at most until both wheels rest, m, when each brakes as it can, which is what
+    /// [`Self::limit`] makes of a wish for rest: (v_L^2 + v_R^2)/(4 a). In a curve that is more than v^2/(2 a) of the centre.
+    pub fn stopping_distance(self, current: Wheels) -> f64 {
+        (current.left * current.left + current.right * current.right) / (4.0 * self.acceleration)
+    }
+
     /// A wheel that comes down to the pull-in speed within the time has its freedom from there on.
     fn reachable(self, speed: f64, duration: f64) -> Interval {
         let change = self.acceleration * duration;
@@ -126,6 +132,20 @@ mod tests {
     }
 
     proptest! {
+        /// The path of a stop is no longer than said, and for wheels that turn one way no shorter either.
+        #[test]
+        fn stopping_distance_is_the_path_of_a_stop(left in -0.3..0.3_f64, right in -0.3..0.3_f64) {
+            let motor = Ramp { pull_in_speed: 0.0, acceleration: 0.5 };
+            let (mut wheels, mut path, step) = (Wheels { left, right }, 0.0, 1e-3);
+            let expected = motor.stopping_distance(wheels);
+            while wheels != Wheels::ZERO {
+                path += 0.5 * (wheels.left + wheels.right).abs() * step;
+                wheels = motor.limit(wheels, Wheels::ZERO, step).value;
+            }
+            prop_assert!(path <= expected + 5e-4);
+            prop_assert!(left * right < 0.0 || path >= expected - 5e-4);
+        }
+
         #[test]
         fn every_step_is_followable_and_the_wish_is_reached(
             l in -0.3..0.3_f64, r in -0.3..0.3_f64, wl in -0.3..0.3_f64, wr in -0.3..0.3_f64,

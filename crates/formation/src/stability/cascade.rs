@@ -13,6 +13,7 @@
 //! n_j(t) <= S (n_1(T) + ... + n_j(T)) from T on.
 use super::eigenvalues::spectral_norm;
 use super::input_to_state::{ChainError, Closed, Coupling, QueueRobot, close, input_to_state, recursive_bounds};
+use super::product::product;
 use nalgebra::{DMatrix, DVector};
 
 /// Step of the sampling in units of 1/|N|: the bound is too large by about this share.
@@ -42,7 +43,7 @@ pub fn cascade_bounds(
         let now = block_norms(&flow, chain.len());
         let errors = &now * &initial;
         bounds = bounds.sup(&(&growth * &errors));
-        peak = peak.max((&growth * &now).amax());
+        peak = peak.max(product(&growth, &now).amax());
         let largest_column_sum = now.row_sum().amax();
         let mut ahead = 0.0;
         let is_over = errors.iter().zip(&bounds).all(|(error, bound)| {
@@ -52,7 +53,7 @@ pub fn cascade_bounds(
         if is_over && largest_column_sum < 1.0 {
             return Ok(bounds.as_slice().to_vec());
         }
-        flow = &advance * flow;
+        flow = product(&advance, &flow);
     }
     let rest = recursive_bounds(&recursion, (block_norms(&flow, chain.len()) * &initial).as_slice());
     Ok(rest.into_iter().zip(&bounds).map(|(rest, bound)| rest.max(*bound)).collect())
@@ -87,7 +88,7 @@ fn block_norms(matrix: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
 fn exponential(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let identity = DMatrix::identity(matrix.nrows(), matrix.nrows());
     // Horner; the first term left out is below 1e-26 of the norms used here.
-    (1..=10).rev().fold(identity.clone(), |sum, order| &identity + matrix * sum / f64::from(order))
+    (1..=10).rev().fold(identity.clone(), |sum, order| &identity + product(matrix, &sum) / f64::from(order))
 }
 
 #[cfg(test)]

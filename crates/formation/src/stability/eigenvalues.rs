@@ -1,4 +1,5 @@
 //! Eigenvalues of small symmetric matrices by Jacobi's rotations: plain arithmetic in a fixed order.
+use super::product::product;
 use nalgebra::DMatrix;
 
 /// The smallest and the largest eigenvalue of a symmetric matrix (its upper triangle counts).
@@ -48,7 +49,7 @@ fn rotate(matrix: &mut DMatrix<f64>, p: usize, q: usize) {
 
 /// The spectral norm, sqrt(lambda_max(M^T M)).
 pub(super) fn spectral_norm(matrix: &DMatrix<f64>) -> f64 {
-    extreme_eigenvalues(&(matrix.transpose() * matrix)).1.max(0.0).sqrt()
+    extreme_eigenvalues(&product(&matrix.transpose(), matrix)).1.max(0.0).sqrt()
 }
 
 #[cfg(test)]

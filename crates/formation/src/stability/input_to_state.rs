@@ -7,6 +7,7 @@
 //! a = sqrt(lmax P / lmin P), c = (1 - theta) lmin Q / (2 lmax P),
 //! b = 2 lmax(P)^(3/2) mu / (theta lmin(Q) lmin(P)^(1/2)), mu = |C_j|.
 use super::eigenvalues::{extreme_eigenvalues, spectral_norm};
+use super::product::product;
 use super::{LyapunovError, solve_lyapunov};
 use nalgebra::DMatrix;
 
@@ -81,7 +82,7 @@ impl QueueRobot {
         if !fits {
             return Err(LyapunovError::Shape);
         }
-        let feedback = &self.input * &self.gain;
+        let feedback = product(&self.input, &self.gain);
         Ok((&self.dynamics - &feedback, feedback))
     }
 }

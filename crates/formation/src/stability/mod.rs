@@ -8,6 +8,7 @@ mod input_to_state;
 mod integrate;
 mod lyapunov_equation;
 mod mismatch;
+mod product;
 mod special;
 mod stable_zone;
 mod violation;
