@@ -78,6 +78,10 @@ impl Node {
                     self.handle(Event::Matched { port, writers: *writers });
                 }
             }
+            GraphChange::Readers { writer, readers } => {
+                let servers = self.ports.servers.iter_mut().chain(self.parameters.services());
+                servers.for_each(|server| server.readers_changed(*writer, readers));
+            }
             GraphChange::Writer { topic, type_name } => self.look_at_writer(topic, type_name),
             GraphChange::Incompatible { local, remote } => {
                 let reader = self.subscriptions.iter().find(|subscription| subscription.network.guid() == *local);

@@ -40,6 +40,10 @@ impl NodeParameters {
         Ok(Self { server, services, events })
     }
 
+    pub(super) fn services(&mut self) -> &mut [ServiceServer] {
+        &mut self.services
+    }
+
     /// Sends what waits; true when nothing waits any longer.
     pub(super) fn flush(&mut self) -> bool {
         let mut done = self.events.flush();

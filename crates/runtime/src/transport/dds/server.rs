@@ -3,21 +3,35 @@
 use super::reader::NetworkReader;
 use super::writer::{Congested, NetworkWriter};
 use rustdds::bytes::Bytes;
-use rustdds::{SampleIdentity, SequenceNumber};
+use rustdds::{GUID, SampleIdentity, SequenceNumber};
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+/// How long a response waits for its client's reader to be discovered: requests can come before it.
+const DISCOVERY: Duration = Duration::from_millis(1000);
 
 /// Whom to answer.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PendingRequest(SampleIdentity);
 
+/// A response whose client cannot be reached yet.
+struct Held {
+    request: PendingRequest,
+    response: Bytes,
+    until: Instant,
+}
+
 /// Takes requests and sends responses.
 pub(crate) struct ServiceServer {
     pub(crate) requests: NetworkReader,
     responses: NetworkWriter,
+    readers: BTreeSet<GUID>,
+    held: Vec<Held>,
 }
 
 impl ServiceServer {
     pub(super) fn new(requests: NetworkReader, responses: NetworkWriter) -> Self {
-        Self { requests, responses }
+        Self { requests, responses, readers: BTreeSet::new(), held: Vec::new() }
     }
 
     /// The next request (CDR with its header), or what is wrong with it.
@@ -36,11 +50,36 @@ impl ServiceServer {
 
     /// Answers a request.
     pub(crate) fn respond(&mut self, request: PendingRequest, response: Bytes) -> Result<(), Congested> {
-        self.responses.write_related(response, request.0).map(|_| ())
+        if self.reaches(request) {
+            return self.responses.write_related(response, request.0).map(|_| ());
+        }
+        self.held.push(Held { request, response, until: Instant::now() + DISCOVERY });
+        Ok(())
+    }
+
+    /// Follows who reads the responses.
+    pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
+        if writer == self.responses.guid() {
+            self.readers.clone_from(readers);
+        }
     }
 
     /// Sends what waits; true when nothing waits any longer.
     pub(crate) fn flush(&mut self) -> bool {
-        self.responses.flush()
+        let now = Instant::now();
+        for held in std::mem::take(&mut self.held) {
+            if self.reaches(held.request) || held.until <= now {
+                // The client is there now or never; a full network loses it like any other response.
+                let _congested = self.responses.write_related(held.response, held.request.0);
+            } else {
+                self.held.push(held);
+            }
+        }
+        self.responses.flush() && self.held.is_empty()
+    }
+
+    /// Whether the client's process has a reader of our responses.
+    fn reaches(&self, request: PendingRequest) -> bool {
+        self.readers.iter().any(|reader| reader.prefix == request.0.writer_guid.prefix)
     }
 }

@@ -10,21 +10,24 @@ use std::io;
 pub(crate) enum GraphChange {
     /// The number of writers matched to a reader changed.
     Matched { reader: GUID, writers: usize },
+    /// The readers matched to a writer changed.
+    Readers { writer: GUID, readers: BTreeSet<GUID> },
     /// Another process writes a topic that some reader here may read.
     Writer { topic: String, type_name: String },
     /// A reader and a writer of one topic cannot talk.
     Incompatible { local: GUID, remote: GUID },
 }
 
-/// Follows the matches of all readers of this process.
+/// Follows the matches of all readers and writers of this process.
 pub(crate) struct StatusReader {
     listener: DomainParticipantStatusListener,
-    matched: BTreeMap<GUID, BTreeSet<GUID>>,
+    writers_of: BTreeMap<GUID, BTreeSet<GUID>>,
+    readers_of: BTreeMap<GUID, BTreeSet<GUID>>,
 }
 
 impl StatusReader {
     pub(super) fn new(listener: DomainParticipantStatusListener) -> Self {
-        Self { listener, matched: BTreeMap::new() }
+        Self { listener, writers_of: BTreeMap::new(), readers_of: BTreeMap::new() }
     }
 
     /// All changes since the last call.
@@ -39,13 +42,21 @@ impl StatusReader {
     fn follow(&mut self, status: Status, changes: &mut Vec<GraphChange>) {
         match status {
             Status::RemoteWriterMatched { local_reader, remote_writer } => {
-                let writers = self.matched.entry(local_reader).or_default();
+                let writers = self.writers_of.entry(local_reader).or_default();
                 if writers.insert(remote_writer) {
                     changes.push(GraphChange::Matched { reader: local_reader, writers: writers.len() });
                 }
             }
-            Status::WriterLost { guid, .. } => self.forget(|writer| *writer == guid, changes),
-            Status::ParticipantLost { id, .. } => self.forget(|writer| writer.prefix == id, changes),
+            Status::RemoteReaderMatched { local_writer, remote_reader } => {
+                let readers = self.readers_of.entry(local_writer).or_default();
+                if readers.insert(remote_reader) {
+                    changes.push(GraphChange::Readers { writer: local_writer, readers: readers.clone() });
+                }
+            }
+            Status::WriterLost { guid, .. } | Status::ReaderLost { guid, .. } => {
+                self.forget(|endpoint| *endpoint == guid, changes);
+            }
+            Status::ParticipantLost { id, .. } => self.forget(|endpoint| endpoint.prefix == id, changes),
             Status::WriterDetected { writer } => {
                 changes.push(GraphChange::Writer { topic: writer.topic_name, type_name: writer.type_name });
             }
@@ -60,14 +71,23 @@ impl StatusReader {
     }
 
     fn forget(&mut self, lost: impl Fn(&GUID) -> bool, changes: &mut Vec<GraphChange>) {
-        for (reader, writers) in &mut self.matched {
-            let before = writers.len();
-            writers.retain(|writer| !lost(writer));
-            if writers.len() != before {
+        for (reader, writers) in &mut self.writers_of {
+            if remove(writers, &lost) {
                 changes.push(GraphChange::Matched { reader: *reader, writers: writers.len() });
             }
         }
+        for (writer, readers) in &mut self.readers_of {
+            if remove(readers, &lost) {
+                changes.push(GraphChange::Readers { writer: *writer, readers: readers.clone() });
+            }
+        }
     }
+}
+
+fn remove(endpoints: &mut BTreeSet<GUID>, lost: &impl Fn(&GUID) -> bool) -> bool {
+    let before = endpoints.len();
+    endpoints.retain(|endpoint| !lost(endpoint));
+    endpoints.len() != before
 }
 
 impl event::Source for StatusReader {
