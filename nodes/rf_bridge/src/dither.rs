@@ -55,13 +55,14 @@ impl Dither {
     fn settle(&mut self, now: Steady, wanted: [f64; 2], obeyed: f64) -> f64 {
         let Some(sent) = self.sent else { return NOMINAL_FRAME };
         let lasted = now.seconds_since(sent.at).min(obeyed);
-        for wheel in 0..2 {
+        for (wheel, debt) in self.debt.iter_mut().enumerate() {
+            let (wanted, before) = (wanted[wheel], sent.wanted[wheel]);
             // Speeds that the motor can do leave no debt, and one that changes its direction starts anew.
-            let in_reach = wanted[wheel] == 0.0 || wanted[wheel].abs() >= slowest_speed();
-            if in_reach || wanted[wheel] * sent.wanted[wheel] <= 0.0 {
-                self.debt[wheel] = 0.0;
+            let in_reach = wanted == 0.0 || wanted.abs() >= slowest_speed();
+            if in_reach || wanted * before <= 0.0 {
+                *debt = 0.0;
             } else {
-                self.debt[wheel] += (sent.wanted[wheel] - sent.speeds[wheel]) * lasted;
+                *debt += (before - sent.speeds[wheel]) * lasted;
             }
         }
         lasted.max(0.005)

@@ -101,3 +101,53 @@ impl Downlink {
         self.sent.push_back((self.counter as u16, now));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trench_core::{Action, Outbox};
+    use trench_radio::{RobotSet, StreamDecoder};
+
+    /// The counters of the packets that were written.
+    fn counters(outbox: &Outbox) -> Vec<u64> {
+        let (mut counters, mut decoder) = (Vec::new(), StreamDecoder::default());
+        for action in &outbox.actions {
+            let Action::Write { bytes, .. } = action else { continue };
+            decoder.push(bytes, |frame| {
+                if let LinkFrame::Downlink { packet } = frame {
+                    counters.extend(Packet::decode(packet, None).map(|packet| packet.counter));
+                }
+            });
+        }
+        counters
+    }
+
+    #[test]
+    fn counters_go_up_across_lives_whatever_the_clock_says() {
+        let (mut promised, mut highest) = (0, 0);
+        for clock in [RosTime(0), RosTime(1 << 40), RosTime(0), RosTime(-5)] {
+            let mut outbox = Outbox::default();
+            let mut downlink = Downlink::new(None, 115_200, promised);
+            downlink.start(clock);
+            for at in 0..5000 {
+                if downlink.extend_promise() {
+                    promised = downlink.promised();
+                }
+                downlink.send(Steady(at * 1_000_000), Payload::Reset(RobotSet::ALL), &mut outbox);
+            }
+            let counters = counters(&outbox);
+            assert_eq!(counters.len(), 5000);
+            assert!(counters[0] > highest && counters.windows(2).all(|pair| pair[1] == pair[0] + 1));
+            highest = counters[4999];
+            assert!(highest < promised, "what was promised covers what was sent");
+        }
+    }
+
+    #[test]
+    fn the_line_is_free_when_its_bytes_are_through() {
+        let mut downlink = Downlink::new(None, 115_200, 0);
+        downlink.send(Steady(5_000_000), Payload::Reset(RobotSet::ALL), &mut Outbox::default());
+        let expected = 5_000_000 + 18 * 86_805;
+        assert!(downlink.free_at().0.abs_diff(expected) < 100, "{:?}", downlink.free_at());
+    }
+}

@@ -5,12 +5,13 @@ mod common;
 
 use common::{Loop, MS, Texts, strings};
 use trench_config::ParameterValue::{Bool, Double, String as Text};
-use trench_core::Level;
+use trench_core::{Action, Level, NodeContext};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::msg::{DiscArray, LinkStatus, RunState};
 use trench_msgs::nav_msgs::Odometry;
-use trench_msgs::sensor_msgs::{BatteryState, Range};
+use trench_msgs::sensor_msgs::{BatteryState, CameraInfo, Image, Range};
+use trench_optics::{Camera, Pad, Pose2};
 
 const NO_FILES: Texts = Texts(Vec::new());
 
@@ -315,8 +316,56 @@ fn frames_carry_detections_and_truth_with_the_stamp_of_the_exposure() {
     let truth: Vec<Odometry> = both.testbed.published("/ground_truth/robot1/odom");
     assert_eq!((discs.len(), truth.len()), (13, 13));
     for (discs, truth) in discs.iter().zip(&truth) {
-        assert_eq!((discs.header.stamp.clone(), discs.discs.len()), (truth.header.stamp.clone(), 4));
+        assert_eq!((discs.header.stamp, discs.discs.len()), (truth.header.stamp, 4));
     }
+}
+
+#[test]
+fn rendered_frames_show_the_pads() {
+    let poses = [0.6, 0.5, 0.0, 1.6, 1.2, 2.0];
+    let mut both = Loop::new(&poses, &[], &[("render", Bool(true))], &NO_FILES);
+    both.run(110);
+    let images: Vec<Image> = both.testbed.published("/overhead/image_raw");
+    let infos: Vec<CameraInfo> = both.testbed.published("/overhead/camera_info");
+    assert_eq!((images.len(), infos.len()), (2, 2));
+    let image = &images[1];
+    assert_eq!((image.width, image.height, image.step, image.encoding.as_str()), (768, 576, 2304, "rgb8"));
+    assert_eq!((image.header.stamp, image.data.len()), (infos[1].header.stamp, 768 * 576 * 3));
+    let (camera, pad) = (Camera::nominal(), Pad::NOMINAL);
+    for pose in poses.chunks(3) {
+        for (disc, yellow) in pad.discs(Pose2 { x: pose[0], y: pose[1], theta: pose[2] }).into_iter().zip([true, false])
+        {
+            let pixel = camera.project(nalgebra::Point3::new(disc.x, disc.y, pad.height)).unwrap();
+            let at = 3 * (pixel.v.round() as usize * 768 + pixel.u.round() as usize);
+            let [red, _, blue] = [0, 1, 2].map(|channel| i32::from(image.data[at + channel]));
+            assert_eq!(red > blue + 80, yellow, "{pixel:?}: {red} {blue}");
+            assert_eq!(blue > red + 80, !yellow, "{pixel:?}: {red} {blue}");
+        }
+    }
+}
+
+#[test]
+fn an_emergency_stop_outlives_the_bridge() {
+    let mut both = running();
+    both.drive(10, 2, 0.07, 0.0);
+    both.emergency_stop(9, true);
+    let checkpoints = both.bridge.outbox.actions.iter().filter_map(|action| match action {
+        Action::Checkpoint(bytes) => Some(bytes.clone()),
+        _ => None,
+    });
+    let context = NodeContext { checkpoint: checkpoints.last(), ..NodeContext::default() };
+    let description = rf_bridge::description();
+    let given = [("serial.port", Text("line".to_owned())), ("robots", strings(&["robot1", "robot2"]))];
+    both.bridge.core = (description.build)(&context, &common::parameters(&description, &given), &NO_FILES).unwrap();
+    both.start_bridge();
+    both.run_state(RunState::RUNNING);
+    both.run(100);
+    let place = both.place(1);
+    both.drive(30, 2, 0.07, 0.0);
+    assert_eq!(both.place(1), place, "still stopped");
+    assert!(both.reset().success);
+    both.drive(30, 2, 0.07, 0.0);
+    assert!(both.place(1).0 > place.0 + 0.04, "its packets are newer than those of the first life");
 }
 
 #[test]
@@ -330,7 +379,7 @@ fn wrong_parameters_are_refused_with_a_remedy() {
     };
     let port = ("serial.port", Text("line".to_owned()));
     check(&[], "serial.port");
-    check(&[port.clone()], "there is no robot");
+    check(std::slice::from_ref(&port), "there is no robot");
     check(&[port.clone(), ("robots", strings(&["a", "a"]))], "there twice");
     check(&[port.clone(), ("robots", strings(&["a"])), ("key_file", Text("nowhere".to_owned()))], "cannot be read");
     let ids = |ids: &[i64]| ("ids", trench_config::ParameterValue::IntegerArray(ids.to_vec()));

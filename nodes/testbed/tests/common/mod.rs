@@ -111,32 +111,37 @@ impl Loop {
             down: Vec::new(),
             sequence: 0,
         };
-        this.to_bridge(Event::Started);
-        this.to_testbed(Event::Started);
-        this.to_bridge(Event::StreamState { stream: 0, open: true });
+        this.tell_testbed(Event::Started);
+        this.start_bridge();
         this
+    }
+
+    /// The bridge begins its life with an open line.
+    pub(crate) fn start_bridge(&mut self) {
+        self.tell_bridge(Event::Started);
+        self.plug(true);
     }
 
     pub(crate) fn times(&self) -> Times {
         Times { ros: RosTime(EPOCH + self.now as i64), steady: Steady(self.now) }
     }
 
-    fn to_bridge(&mut self, event: Event<'_>) {
+    fn tell_bridge(&mut self, event: Event<'_>) {
         let (at, before) = (self.times(), self.bridge.outbox.actions.len());
         self.bridge.core.handle(at, event, &mut self.bridge.outbox);
         let written: Vec<Vec<u8>> = self.bridge.outbox.actions[before..].iter().filter_map(bytes).collect();
         for bytes in written {
             self.down.push((self.now, bytes.clone()));
-            self.to_testbed(Event::Bytes { stream: 0, data: &bytes });
+            self.tell_testbed(Event::Bytes { stream: 0, data: &bytes });
         }
     }
 
-    fn to_testbed(&mut self, event: Event<'_>) {
+    fn tell_testbed(&mut self, event: Event<'_>) {
         let (at, before) = (self.times(), self.testbed.outbox.actions.len());
         self.testbed.core.handle(at, event, &mut self.testbed.outbox);
         let written: Vec<Vec<u8>> = self.testbed.outbox.actions[before..].iter().filter_map(bytes).collect();
         for bytes in written {
-            self.to_bridge(Event::Bytes { stream: 0, data: &bytes });
+            self.tell_bridge(Event::Bytes { stream: 0, data: &bytes });
         }
     }
 
@@ -152,14 +157,14 @@ impl Loop {
             }
             self.now = next;
             if testbed == next {
-                self.to_testbed(Event::Wakeup);
+                self.tell_testbed(Event::Wakeup);
             }
             if bridge == next {
-                self.to_bridge(Event::Wakeup);
+                self.tell_bridge(Event::Wakeup);
             }
         }
         self.now = end;
-        self.to_testbed(Event::Wakeup);
+        self.tell_testbed(Event::Wakeup);
     }
 
     /// A message to the bridge, from the publisher with this number.
@@ -168,7 +173,7 @@ impl Loop {
         let port = subscriptions.iter().position(|s| s.topic == topic).unwrap_or_else(|| panic!("{topic}"));
         self.sequence += 1;
         let source = Source { gid: [publisher; 16], sequence: self.sequence };
-        self.to_bridge(Event::Message { port, source, cdr: &message.to_cdr() });
+        self.tell_bridge(Event::Message { port, source, cdr: &message.to_cdr() });
     }
 
     pub(crate) fn run_state(&mut self, state: u8) {
@@ -199,27 +204,27 @@ impl Loop {
 
     pub(crate) fn reset(&mut self) -> TriggerResponse {
         let before = self.bridge.outbox.actions.len();
-        self.to_bridge(Event::Request { service: 0, id: RequestId(1), cdr: &[] });
+        self.tell_bridge(Event::Request { service: 0, id: RequestId(1), cdr: &[] });
         let responses = self.bridge.outbox.actions[before..].iter().filter_map(|action| match action {
             Action::Respond { cdr, .. } => TriggerResponse::decode(cdr).ok(),
             _ => None,
         });
-        responses.last().unwrap()
+        responses.collect::<Vec<_>>().pop().unwrap()
     }
 
     /// The line breaks, or is there again.
     pub(crate) fn plug(&mut self, open: bool) {
-        self.to_bridge(Event::StreamState { stream: 0, open });
+        self.tell_bridge(Event::StreamState { stream: 0, open });
     }
 
     /// The bridge hears these bytes from the line.
     pub(crate) fn noise_up(&mut self, bytes: &[u8]) {
-        self.to_bridge(Event::Bytes { stream: 0, data: bytes });
+        self.tell_bridge(Event::Bytes { stream: 0, data: bytes });
     }
 
     /// The base station hears these bytes from the line.
     pub(crate) fn noise_down(&mut self, bytes: &[u8]) {
-        self.to_testbed(Event::Bytes { stream: 0, data: bytes });
+        self.tell_testbed(Event::Bytes { stream: 0, data: bytes });
     }
 
     /// The true track of a robot: time (ms), x, y, speed.
