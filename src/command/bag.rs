@@ -8,6 +8,7 @@ use trench_bag::{BagError, BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::Qos;
 
 mod info;
+mod record;
 
 /// Records, shows and judges runs in bags (MCAP, as `ros2 bag` and Foxglove read them).
 #[derive(Args)]
@@ -18,6 +19,8 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 enum Action {
+    /// Records topics into a new bag until it is stopped (Ctrl-C). A killed recorder loses less than a second.
+    Record(record::Record),
     /// Says what is in a bag: files, duration, topics with types, counts and rates, and what is damaged.
     Info {
         /// A bag's folder or an .mcap file.
@@ -50,6 +53,10 @@ enum Action {
 /// Runs the action.
 pub(super) fn run(arguments: &Arguments) -> ExitCode {
     let done = match &arguments.action {
+        Action::Record(record) => {
+            eprintln!("trench bag: {}", record.run());
+            return ExitCode::FAILURE;
+        }
         Action::Info { bag } => BagReader::open(bag).map(|bag| print!("{}", info::Info(&bag))),
         Action::Analyze { bag, json, at, interval } => analyze(bag, *json, at, interval),
         Action::Recover { bag, out } => recover(bag, out),
@@ -90,11 +97,8 @@ fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
     }
     for message in bag.messages() {
         let message = message?;
-        let stamp = Stamp {
-            log_time: message.log_time,
-            publish_time: message.publish_time,
-            sequence: message.sequence,
-        };
+        let stamp =
+            Stamp { log_time: message.log_time, publish_time: message.publish_time, sequence: message.sequence };
         if let Some(&id) = ids.get(message.topic) {
             writer.write(id, stamp, &message)?;
         }
