@@ -73,12 +73,14 @@ impl Node {
     pub(crate) fn graph_changed(&mut self, change: &GraphChange) {
         match change {
             GraphChange::Matched { reader, writers } => {
+                self.ports.callers.iter_mut().for_each(|caller| caller.service.writers_changed(*reader, *writers));
                 let port = self.subscriptions.iter().position(|subscription| subscription.network.guid() == *reader);
                 if let Some(port) = port {
                     self.handle(Event::Matched { port, writers: *writers });
                 }
             }
             GraphChange::Readers { writer, readers } => {
+                self.ports.callers.iter_mut().for_each(|caller| caller.service.readers_changed(*writer, readers));
                 let servers = self.ports.servers.iter_mut().chain(self.parameters.services());
                 servers.for_each(|server| server.readers_changed(*writer, readers));
             }

@@ -51,7 +51,7 @@ impl Ports {
             done &= server.flush();
         }
         for caller in &mut self.callers {
-            done &= caller.service.flush();
+            done &= caller.flush();
         }
         done
     }

@@ -116,3 +116,6 @@ impl Stream {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

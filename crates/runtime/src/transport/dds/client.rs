@@ -2,17 +2,40 @@
 
 use super::reader::NetworkReader;
 use super::writer::{Congested, NetworkWriter};
+use rustdds::GUID;
 use rustdds::bytes::Bytes;
+use std::collections::BTreeSet;
 
 /// Sends requests and takes their responses.
 pub(crate) struct ServiceClient {
     pub(crate) responses: NetworkReader,
     requests: NetworkWriter,
+    servers_read: bool,
+    servers_write: bool,
 }
 
 impl ServiceClient {
     pub(super) fn new(requests: NetworkWriter, responses: NetworkReader) -> Self {
-        Self { responses, requests }
+        Self { responses, requests, servers_read: false, servers_write: false }
+    }
+
+    /// Follows who reads the requests.
+    pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
+        if writer == self.requests.guid() {
+            self.servers_read = !readers.is_empty();
+        }
+    }
+
+    /// Follows who writes responses.
+    pub(crate) fn writers_changed(&mut self, reader: GUID, writers: usize) {
+        if reader == self.responses.guid() {
+            self.servers_write = writers > 0;
+        }
+    }
+
+    /// Whether a server is there, both to hear and to answer.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.servers_read && self.servers_write
     }
 
     /// Sends a request (CDR with its header) and gives its count.
