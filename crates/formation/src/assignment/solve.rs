@@ -111,9 +111,9 @@ impl Optimum {
     pub fn violation(&self, costs: &CostMatrix) -> f64 {
         let (u, v) = &self.duals;
         let mut worst = v.iter().copied().fold(0.0, f64::max);
-        for row in 0..costs.rows() {
-            for column in 0..costs.columns() {
-                let slack = costs.at(row, column) - u[row] - v[column];
+        for (row, row_dual) in u.iter().enumerate() {
+            for (column, column_dual) in v.iter().enumerate() {
+                let slack = costs.at(row, column) - row_dual - column_dual;
                 worst = worst.max(if self.columns[row] == column { slack.abs() } else { -slack });
             }
         }

@@ -83,19 +83,16 @@ fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) 
 
 /// Replaces the groups of each root by their union.
 fn join(groups: &mut Vec<Group>, parents: &mut [usize], obstacles: &[&Obstacle]) {
-    let mut unions: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
-    for (index, group) in groups.iter().enumerate() {
-        unions[root(parents, index)].extend_from_slice(&group.members);
+    let mut unions: Vec<Vec<Group>> = Vec::new();
+    unions.resize_with(groups.len(), Vec::new);
+    for (index, group) in core::mem::take(groups).into_iter().enumerate() {
+        unions[root(parents, index)].push(group);
     }
-    let mut old: Vec<Option<Group>> = core::mem::take(groups).into_iter().map(Some).collect();
-    for (index, mut members) in unions.into_iter().enumerate().filter(|(_, members)| !members.is_empty()) {
-        match old[index].take() {
-            Some(group) if group.members.len() == members.len() => groups.push(Group { fresh: false, ..group }),
-            _ => {
-                members.sort_unstable();
-                let shape = Shape::around(members.iter().map(|member| &obstacles[*member].shape));
-                groups.push(Group::new(members, shape));
-            }
+    for mut parts in unions {
+        match parts.len() {
+            0 => {}
+            1 => groups.extend(parts.pop().map(|group| Group { fresh: false, ..group })),
+            _ => groups.push(Group::union(&parts, obstacles)),
         }
     }
 }
@@ -120,6 +117,20 @@ impl Group {
             }
         }
         Self { members, low, high, shape, fresh: true }
+    }
+
+    /// The hull of hulls, which is that of their members if all are rounded off alike (then far fewer corners count).
+    fn union(parts: &[Self], obstacles: &[&Obstacle]) -> Self {
+        let mut members: Vec<usize> = parts.iter().flat_map(|part| part.members.iter().copied()).collect();
+        members.sort_unstable();
+        let radius = obstacles[members[0]].shape.outline().radius;
+        let alike = members.iter().all(|member| obstacles[*member].shape.outline().radius == radius);
+        let shape = if alike {
+            Shape::around(parts.iter().map(|part| &part.shape))
+        } else {
+            Shape::around(members.iter().map(|member| &obstacles[*member].shape))
+        };
+        Self::new(members, shape)
     }
 
     fn is_nearer_than(&self, other: &Self, clearance: f64) -> bool {

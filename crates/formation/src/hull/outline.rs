@@ -51,13 +51,25 @@ impl Outline<'_> {
         self.core_distance(other) - self.radius - other.radius
     }
 
-    /// Whether the gap is strictly less than `limit` (m). Cheaper than [`Self::gap`] where a line between the middles
-    /// already separates the two.
+    /// Whether the gap is strictly less than `limit` (m). Far cheaper than [`Self::gap`] for most pairs: a line across
+    /// one of two likely directions separates them, or two corners are near enough.
     pub fn is_nearer_than(&self, other: &Outline<'_>, limit: f64) -> bool {
-        let axis = (other.middle() - self.middle()).try_normalize(0.0).unwrap_or_else(Vector2::x);
+        let limit = limit + self.radius + other.radius;
+        if self.separation(other, other.middle() - self.middle()) >= limit {
+            return false;
+        }
+        let pairs = self.points.iter().flat_map(|point| other.points.iter().map(move |corner| corner - point));
+        let between = pairs.fold(Vector2::repeat(f64::INFINITY), |best, arm| {
+            if arm.norm_squared() < best.norm_squared() { arm } else { best }
+        });
+        between.norm() < limit || (self.separation(other, between) < limit && self.core_distance(other) < limit)
+    }
+
+    /// Space between the polygons along `direction`, a lower bound of their distance; negative if they overlap there.
+    fn separation(&self, other: &Outline<'_>, direction: Vector2<f64>) -> f64 {
+        let axis = direction.try_normalize(0.0).unwrap_or_else(Vector2::x);
         let reach = self.points.iter().map(|point| point.dot(&axis)).fold(f64::NEG_INFINITY, f64::max);
-        let start = other.points.iter().map(|point| point.dot(&axis)).fold(f64::INFINITY, f64::min);
-        start - reach - self.radius - other.radius < limit && self.gap(other) < limit
+        other.points.iter().map(|point| point.dot(&axis)).fold(f64::INFINITY, f64::min) - reach
     }
 
     fn middle(&self) -> Vector2<f64> {

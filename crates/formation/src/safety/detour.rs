@@ -166,7 +166,7 @@ impl View<'_> {
         let points = [self.centre, end];
         let path = Outline { points: &points, radius: 0.0 };
         let blocking = |item: &usize| {
-            let Some(berth) = self.berth(*item) else { return None };
+            let berth = self.berth(*item)?;
             let outline = self.outline(*item);
             let approach = outline.approach(self.centre);
             let distance = approach.gap + outline.radius;

@@ -3,16 +3,16 @@ use nalgebra::Vector2;
 use trench_formation::kinematics::{Pose, Twist, wrap};
 use trench_formation::safety::{MovingOutline, Neighbour, SafetyFilter, SafetyParameters, Scene, Wish};
 
-pub const RADIUS: f64 = 0.08;
-pub const HALF_AXLE: f64 = 0.06;
-pub const MARGIN: f64 = 0.01;
-pub const FIELD: [Vector2<f64>; 4] =
+pub(crate) const RADIUS: f64 = 0.08;
+pub(crate) const HALF_AXLE: f64 = 0.06;
+pub(crate) const MARGIN: f64 = 0.01;
+pub(crate) const FIELD: [Vector2<f64>; 4] =
     [Vector2::new(0.0, 0.0), Vector2::new(2.48, 0.0), Vector2::new(2.48, 1.83), Vector2::new(0.0, 1.83)];
 const MOST_WHEEL_SPEED: f64 = 0.3;
 const WHEEL_ACCELERATION: f64 = 0.5;
 
 /// SplitMix64: small, seeded, the same everywhere.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
@@ -22,12 +22,12 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Points in the field, pairwise at least `apart` apart; drawn anew until they fit.
-    pub fn places(&mut self, count: usize, apart: f64) -> Vec<Vector2<f64>> {
+    pub(crate) fn places(&mut self, count: usize, apart: f64) -> Vec<Vector2<f64>> {
         let inset = RADIUS + MARGIN;
         let mut places: Vec<Vector2<f64>> = Vec::new();
         while places.len() < count {
@@ -41,9 +41,9 @@ impl Random {
 }
 
 #[derive(Clone)]
-pub struct Robot {
-    pub pose: Pose,
-    pub goal: Vector2<f64>,
+pub(crate) struct Robot {
+    pub(crate) pose: Pose,
+    pub(crate) goal: Vector2<f64>,
     wheels: [f64; 2],
     target: [f64; 2],
     /// Commands under way: when they act (ms) and the wheel speeds.
@@ -51,16 +51,16 @@ pub struct Robot {
 }
 
 impl Robot {
-    pub fn new(pose: Pose, goal: Vector2<f64>) -> Self {
+    pub(crate) fn new(pose: Pose, goal: Vector2<f64>) -> Self {
         Self { pose, goal, wheels: [0.0; 2], target: [0.0; 2], pending: Vec::new() }
     }
 
-    pub fn twist(&self) -> Twist {
+    pub(crate) fn twist(&self) -> Twist {
         let [left, right] = self.wheels;
         Twist { v: 0.5 * (left + right), omega: (right - left) / (2.0 * HALF_AXLE) }
     }
 
-    pub fn velocity(&self) -> Vector2<f64> {
+    pub(crate) fn velocity(&self) -> Vector2<f64> {
         self.twist().v * self.pose.heading()
     }
 
@@ -92,24 +92,24 @@ impl Robot {
         Twist { v: distance.min(0.25) * libm::cos(error), omega: 2.0 * error }
     }
 
-    pub fn arrived(&self) -> bool {
+    pub(crate) fn arrived(&self) -> bool {
         (self.goal - self.pose.position()).norm() < 0.03
     }
 }
 
-pub struct Bed<'a> {
-    pub robots: Vec<Robot>,
-    /// Robots from this index on are carried by hand: they follow no filter, and all know it.
-    pub intruders: Vec<(Vector2<f64>, Vector2<f64>)>,
-    pub obstacles: Vec<MovingOutline<'a>>,
-    pub period: u32,
-    pub delay: u32,
-    pub now: u32,
-    pub filter: SafetyFilter,
+pub(crate) struct Bed<'a> {
+    pub(crate) robots: Vec<Robot>,
+    /// Positions and velocities of robots that are carried by hand: they follow no filter, and all know it.
+    pub(crate) intruders: Vec<(Vector2<f64>, Vector2<f64>)>,
+    pub(crate) obstacles: Vec<MovingOutline<'a>>,
+    pub(crate) period: u32,
+    pub(crate) delay: u32,
+    pub(crate) now: u32,
+    pub(crate) filter: SafetyFilter,
 }
 
 impl<'a> Bed<'a> {
-    pub fn new(robots: Vec<Robot>, period: u32, delay: u32) -> Self {
+    pub(crate) fn new(robots: Vec<Robot>, period: u32, delay: u32) -> Self {
         let parameters = SafetyParameters {
             radius: RADIUS,
             half_axle: HALF_AXLE,
@@ -124,8 +124,8 @@ impl<'a> Bed<'a> {
     }
 
     /// One millisecond; a tick of all controllers when it is due.
-    pub fn step(&mut self) {
-        if self.now % self.period == 0 {
+    pub(crate) fn step(&mut self) {
+        if self.now.is_multiple_of(self.period) {
             self.tick();
         }
         for robot in &mut self.robots {
@@ -160,7 +160,7 @@ impl<'a> Bed<'a> {
     }
 
     /// Least space between any two robots, and between robots and the edges of the field.
-    pub fn least_gap(&self) -> f64 {
+    pub(crate) fn least_gap(&self) -> f64 {
         let mut least = f64::INFINITY;
         for (index, robot) in self.robots.iter().enumerate() {
             let p = robot.pose.position();
@@ -175,13 +175,13 @@ impl<'a> Bed<'a> {
         least
     }
 
-    pub fn all_arrived(&self) -> bool {
+    pub(crate) fn all_arrived(&self) -> bool {
         self.robots.iter().all(Robot::arrived)
     }
 }
 
 /// Random poses and goals for `count` robots.
-pub fn random_team(seed: u64, count: usize) -> Vec<Robot> {
+pub(crate) fn random_team(seed: u64, count: usize) -> Vec<Robot> {
     let random = &mut Random(seed);
     let starts = random.places(count, 2.0 * RADIUS + MARGIN);
     let goals = random.places(count, 2.0 * RADIUS + MARGIN);
