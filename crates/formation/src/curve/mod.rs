@@ -3,6 +3,7 @@
 //! A [`Curve`] lives in the formation's frame; [`Placed`] looks at it from the frame in which the formation moves.
 mod box_tree;
 mod build;
+mod encroachment;
 mod error;
 mod minimum;
 mod nearest;
@@ -14,6 +15,7 @@ mod shape;
 mod simple;
 mod spline;
 
+pub use encroachment::{Interval, encroached, qualified_fragments};
 pub use error::CurveError;
 pub use nearest::NearestSet;
 pub use placed::Placed;
