@@ -1,0 +1,89 @@
+//! Measures the way from one core to another on this host: start it twice, first with `-p role:=probe`, then with
+//! `-p role:=source`. The probe prints percentiles of the time from the source's wake-up to the probe's core.
+
+use std::process::ExitCode;
+use trench_config::{ConfigError, ParameterDescriptor, Parameters};
+use trench_core::{
+    Advertise, Event, Files, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Sink, StartError, Steady,
+    Subscribe, Times,
+};
+use trench_msgs::Message;
+use trench_msgs::std_msgs::UInt64;
+
+const LATENCY: NodeDescription =
+    NodeDescription { name: "latency", about: "Measures the way between two cores.", parameters, build };
+
+fn parameters() -> Vec<ParameterDescriptor> {
+    vec![
+        ParameterDescriptor::string("role", "probe", "source or probe").read_only(),
+        ParameterDescriptor::bool("shared_memory", true, "whether the source uses it").read_only(),
+        ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e5).read_only(),
+        ParameterDescriptor::integer("count", 2000, "messages to measure").range(100.0, 1.0e7).read_only(),
+    ]
+}
+
+fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+    let topic = "/stamps".to_owned();
+    let local =
+        if parameters.bool("shared_memory")? { Local::SharedMemory { max_len: 16 } } else { Local::NetworkOnly };
+    let mut interface = Interface::default();
+    let source = parameters.str("role")? == "source";
+    if source {
+        interface.publications = vec![Advertise { topic, type_info: UInt64::TYPE, qos: Qos::RELIABLE, local }];
+    } else {
+        interface.subscriptions = vec![Subscribe { topic, type_info: UInt64::TYPE, qos: Qos::RELIABLE }];
+    }
+    let period = 1.0 / parameters.f64("rate")?;
+    let next = source.then_some(Steady(0));
+    Ok(Box::new(Latency { interface, period, next, count: parameters.usize("count")?, nanoseconds: Vec::new() }))
+}
+
+struct Latency {
+    interface: Interface,
+    period: f64,
+    next: Option<Steady>,
+    count: usize,
+    nanoseconds: Vec<u64>,
+}
+
+impl Latency {
+    fn measure(&mut self, at: Times, cdr: &[u8], sink: &mut dyn Sink) {
+        let Ok(stamp) = UInt64::decode(cdr) else { return };
+        self.nanoseconds.push(at.steady.0.saturating_sub(stamp.data));
+        if self.nanoseconds.len() == self.count {
+            self.nanoseconds.sort_unstable();
+            let percentile = |share: usize| self.nanoseconds[(self.count - 1) * share / 1000] as f64 * 1e-3;
+            println!("p50 {:.0} us, p99 {:.0} us, max {:.0} us", percentile(500), percentile(990), percentile(1000));
+            sink.exit(0);
+        }
+    }
+}
+
+impl NodeCore for Latency {
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        match event {
+            Event::Wakeup => {
+                sink.publish(0, &UInt64 { data: at.steady.0 });
+                self.next = Some(at.steady.plus_seconds(self.period));
+            }
+            Event::Message { cdr, .. } => self.measure(at, cdr, sink),
+            _ => {}
+        }
+    }
+
+    fn next_wakeup(&self) -> Option<Steady> {
+        self.next
+    }
+
+    fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {
+        Ok(())
+    }
+}
+
+fn main() -> ExitCode {
+    trench_runtime::run(LATENCY)
+}
