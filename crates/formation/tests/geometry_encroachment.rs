@@ -1,5 +1,4 @@
 //! Encroachment of the diagonal of 7.10 by its four discs.
-#![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 use core::f64::consts::SQRT_2;
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
