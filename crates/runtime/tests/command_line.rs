@@ -1,9 +1,11 @@
 //! What a user sees of a node: exit codes, error texts, help, signals.
 
+#[cfg(test)]
 mod common;
 
 use common::Island;
 
+#[expect(clippy::unwrap_used, reason = "a test helper")]
 fn ends_with(number: u16, example: &str, arguments: &str, code: i32, expected: &[&str]) {
     let output = Island::new(number).command(example, arguments).output().unwrap();
     let text = String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
@@ -77,4 +79,28 @@ fn nodes_are_renamed_and_their_topics_remapped() {
     listener.signal("INT");
     let (_, _, errors) = listener.end();
     assert!(errors.iter().any(|line| line.contains("[hall.ear]: heard")), "{errors:?}");
+}
+
+#[test]
+fn a_foreign_type_on_a_topic_is_reported_and_not_read() {
+    let island = Island::new(35);
+    let listener = island.start("listener", "");
+    let _foreign = island.start("latency", "--ros-args -p role:=source -r /stamps:=/chatter");
+    listener.wait_for_log(
+        "/chatter: another process writes std_msgs::msg::dds_::UInt64_ there; \
+         this node reads std_msgs::msg::dds_::String_",
+    );
+    let _talker = island.start("talker", "--ros-args -p rate:=50.0");
+    let (sequence, text) = listener.line().split_once(' ').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    assert_eq!(sequence, text, "a message of the right type");
+}
+
+#[test]
+fn simulated_time_stands_at_zero_until_a_clock_speaks() {
+    let talker = Island::new(36).start("talker", "--ros-args -p use_sim_time:=true -p count:=3 -p rate:=100.0");
+    let (code, _, errors) = talker.end();
+    assert_eq!(
+        (code, errors.as_slice()),
+        (0, ["[INFO] [0.000000000] [talker]: sent 3 messages".to_owned()].as_slice())
+    );
 }

@@ -1,6 +1,7 @@
 //! What every transport must do, tried on real processes: order, exactly once, latched messages, large messages,
 //! restarts and sudden deaths of either side.
 
+#[cfg(test)]
 mod common;
 
 use common::{Island, Running};
@@ -21,6 +22,7 @@ fn heard(listener: &Running, count: usize) -> Vec<(u64, u64)> {
     (0..count).map(|_| parse(&listener.line())).collect()
 }
 
+#[expect(clippy::unwrap_used, reason = "a test helper")]
 fn parse(line: &str) -> (u64, u64) {
     let (sequence, text) = line.split_once(' ').unwrap();
     (sequence.parse().unwrap(), text.trim().parse().unwrap())
