@@ -33,6 +33,8 @@ pub struct RfBridge {
     pub(crate) heartbeat_at: Steady,
     pub(crate) repeat_at: Option<Steady>,
     pub(crate) refused: u64,
+    /// When the last message was dropped.
+    pub(crate) refused_at: Option<Steady>,
     pub(crate) health: Health,
 }
 
@@ -71,7 +73,7 @@ impl RfBridge {
                     Ok(()) => self.gather(at, sink),
                     Err(refusal) => {
                         let text = format!("a command for {} was dropped: {refusal}", robot.name);
-                        self.refuse(text, sink);
+                        self.refuse(at, text, sink);
                     }
                 }
             }
@@ -79,8 +81,9 @@ impl RfBridge {
         Ok(())
     }
 
-    fn refuse(&mut self, text: String, sink: &mut dyn Sink) {
+    fn refuse(&mut self, at: Times, text: String, sink: &mut dyn Sink) {
         self.refused += 1;
+        self.refused_at = Some(at.steady);
         if self.refused == 1 {
             sink.log(Level::Warn, &text);
         }
@@ -131,7 +134,7 @@ impl NodeCore for RfBridge {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");
-                    self.refuse(text, sink);
+                    self.refuse(at, text, sink);
                 }
             }
             Event::Request { service, id, .. } => {

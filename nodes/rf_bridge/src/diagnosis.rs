@@ -3,6 +3,9 @@
 use crate::core::RfBridge;
 use trench_core::{Condition, Steady};
 
+/// A dropped message is worth a warning for this long, s.
+const LATELY: f64 = 5.0;
+
 impl RfBridge {
     /// Brings all parts up to date.
     pub(crate) fn diagnose(&mut self, now: Steady) {
@@ -30,6 +33,9 @@ impl RfBridge {
             self.health.set("links", Condition::Ok, "all robots are heard");
         } else {
             self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", ")));
+        }
+        if self.refused_at.is_none_or(|at| now.seconds_since(at) > LATELY) {
+            self.health.set("messages", Condition::Ok, "none was dropped lately");
         }
     }
 }
