@@ -109,7 +109,7 @@ fn run(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
     let mut sequence = 0;
     criterion.bench_function("node, image to messages, 6 robots", |bencher| {
         bencher.iter(|| {
-            // The films begins anew with a clock set back, which the node takes as such.
+            // The film begins anew with a clock set back, which the node takes as such.
             let index = sequence as usize % encoded.len();
             sequence += 1;
             let source = Source { gid: [1; 16], sequence };
