@@ -1,5 +1,5 @@
 //! What every transport must do, tried on real processes: order, exactly once, latched messages, large messages,
-//! restarts and sudden deaths of either side.
+//! restarts and sudden deaths of either side. And services between processes.
 
 #[cfg(test)]
 mod common;
@@ -113,4 +113,19 @@ fn a_reader_that_restarts_goes_on_without_copies_or_gaps() {
             listener.end();
         }
     });
+}
+
+#[test]
+fn a_call_made_before_the_server_lives_is_answered() {
+    let island = Island::new(37);
+    let caller = island.start("caller", "");
+    let _talker = island.start("talker", "");
+    assert_eq!(caller.line(), "counting from 1");
+    assert_eq!(caller.end().0, 0);
+}
+
+#[test]
+fn a_call_without_a_server_fails_in_time() {
+    let (code, lines, _) = Island::new(38).start("caller", "").end();
+    assert_eq!((code, lines), (10, vec![]));
 }

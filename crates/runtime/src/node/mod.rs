@@ -4,9 +4,11 @@ mod caller;
 mod connect;
 mod deliver;
 mod early;
+mod graph;
 mod parameters;
 mod ports;
 mod publication;
+mod streams;
 mod subscription;
 
 pub(crate) use caller::Caller;
