@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     run_dir: Option<PathBuf>,
 }
 
-fn name_and_value(text: &str) -> Result<(String, String), String> {
+pub(crate) fn name_and_value(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once(":=").ok_or("write name:=value")?;
     Ok((name.to_owned(), value.to_owned()))
 }

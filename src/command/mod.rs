@@ -3,6 +3,7 @@
 mod bag;
 mod launch;
 mod plot;
+mod sim;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -14,6 +15,7 @@ pub(crate) enum Command {
     Bag(bag::Arguments),
     Launch(launch::Arguments),
     Plot(plot::Arguments),
+    Sim(sim::Arguments),
 }
 
 impl Command {
@@ -23,6 +25,7 @@ impl Command {
             Self::Bag(arguments) => bag::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
+            Self::Sim(arguments) => sim::run(&arguments),
         }
     }
 }

@@ -4,9 +4,11 @@
 
 mod bus;
 pub mod catalog;
+mod disk;
 mod load;
 mod lockstep;
 
 pub use bus::BusError;
+pub use disk::Disk;
 pub use load::{LoadError, Loaded, load};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};

@@ -74,10 +74,8 @@ fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u
     descriptors.push(ParameterDescriptor::string_list("publish_over_network", &[], "topics to send to viewers too"));
     let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
     let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
-    let context =
-        NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
-    let core =
-        (node.build)(&context, &resolved, files).map_err(|error| LoadError::Start { label: label(), error })?;
+    let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
+    let core = (node.build)(&context, &resolved, files).map_err(|error| LoadError::Start { label: label(), error })?;
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
 }
 
@@ -85,12 +83,10 @@ fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u
 fn texts(arguments: &Arguments, process: &Process, files: &dyn Files) -> Result<Vec<String>, ConfigError> {
     let text = |source: &ParameterSource| match source {
         ParameterSource::Override { .. } => Ok(String::new()),
-        ParameterSource::File(path) => {
-            match process.parameter_files.iter().find(|file| file.path == Path::new(path)) {
-                Some(file) => Ok(file.text.clone()),
-                None => files.read("--params-file", path),
-            }
-        }
+        ParameterSource::File(path) => match process.parameter_files.iter().find(|file| file.path == Path::new(path)) {
+            Some(file) => Ok(file.text.clone()),
+            None => files.read("--params-file", path),
+        },
     };
     arguments.parameters.iter().map(text).collect()
 }
@@ -98,8 +94,6 @@ fn texts(arguments: &Arguments, process: &Process, files: &dyn Files) -> Result<
 fn as_source<'a>((source, text): (&'a ParameterSource, &'a String)) -> Source<'a> {
     match source {
         ParameterSource::File(name) => Source::File { name, text },
-        ParameterSource::Override { node, name, value } => {
-            Source::Override { node: node.as_deref(), name, value }
-        }
+        ParameterSource::Override { node, name, value } => Source::Override { node: node.as_deref(), name, value },
     }
 }

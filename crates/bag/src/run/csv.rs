@@ -54,6 +54,23 @@ impl Run {
     }
 }
 
+impl Run {
+    /// The run as the table that [`Run::from_csv`] reads, ordered by robot and time; the goal of a line is the one in
+    /// force at its time.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let mut text = "t,robot,x,y,theta,v,omega,goal_x,goal_y\n".to_owned();
+        for (robot, track) in &self.robots {
+            for pose in &track.poses {
+                let Pose { time, x, y, theta, v, omega } = *pose;
+                let goal = track.goal_at(time).map_or(",".to_owned(), |[x, y]| format!("{x},{y}"));
+                text += &format!("{time:.6},{robot},{x},{y},{theta},{v},{omega},{goal}\n");
+            }
+        }
+        text
+    }
+}
+
 /// A number; nothing for an empty field of a goal.
 fn number(text: &str, line: usize, column: &'static str) -> Result<Option<f64>, CsvError> {
     if text.is_empty() && column.starts_with("goal") {

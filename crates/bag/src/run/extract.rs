@@ -1,7 +1,7 @@
 //! From a bag to a run.
 
 use super::{GoalSample, Pose, Run, Track};
-use crate::{BagError, BagMessage, BagReader, Topic};
+use crate::{BagError, BagReader};
 use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_msgs::Message;
@@ -15,17 +15,17 @@ impl Run {
     /// # Errors
     /// When the bag cannot be read. Messages that cannot are counted in [`Run::undecodable`].
     pub fn from_bag(bag: &BagReader) -> Result<Self, BagError> {
-        let mut extract = Extract::default();
-        let roles: Vec<_> = bag.topics().iter().map(Role::of).collect();
+        let mut builder = RunBuilder::default();
+        let roles: Vec<_> = bag.topics().iter().map(|topic| Role::of(&topic.name, &topic.type_name)).collect();
         for message in bag.messages() {
             let message = message?;
             if let Some(role) = roles.get(message.topic)
-                && extract.take(role, &message).is_none()
+                && builder.take_as(role, &message).is_none()
             {
-                extract.run.undecodable += 1;
+                builder.run.undecodable += 1;
             }
         }
-        Ok(extract.finish())
+        Ok(builder.finish())
     }
 }
 
@@ -41,8 +41,8 @@ enum Role {
 }
 
 impl Role {
-    fn of(topic: &Topic) -> Self {
-        match (topic.name.as_str(), topic.type_name.as_str()) {
+    fn of(topic: &str, type_name: &str) -> Self {
+        match (topic, type_name) {
             ("/team_state", "trench_msgs/msg/TeamState") => Self::TeamState,
             ("/goals", "trench_msgs/msg/Goals") => Self::Goals,
             ("/formation", "trench_msgs/msg/Formation") => Self::Formation,
@@ -57,8 +57,9 @@ impl Role {
     }
 }
 
-#[derive(Default)]
-struct Extract {
+/// Makes a run of messages as they come: from a bag, or from a simulation while it goes.
+#[derive(Debug, Default)]
+pub struct RunBuilder {
     run: Run,
     /// By robot, with times still in ns.
     truth: BTreeMap<String, Vec<(i64, Pose)>>,
@@ -66,9 +67,16 @@ struct Extract {
     goals: BTreeMap<String, Vec<(i64, GoalSample)>>,
 }
 
-impl Extract {
+impl RunBuilder {
+    /// Takes a message; what is nothing to a run is passed over, what cannot be read is counted.
+    pub fn take(&mut self, topic: &str, type_name: &str, cdr: &[u8]) {
+        if self.take_as(&Role::of(topic, type_name), cdr).is_none() {
+            self.run.undecodable += 1;
+        }
+    }
+
     /// Nothing where the message cannot be read.
-    fn take(&mut self, role: &Role, message: &BagMessage) -> Option<()> {
+    fn take_as(&mut self, role: &Role, message: &[u8]) -> Option<()> {
         match role {
             Role::GroundTruth(robot) => {
                 let odometry = Odometry::decode(message).ok()?;
@@ -113,7 +121,9 @@ impl Extract {
         Some(())
     }
 
-    fn finish(self) -> Run {
+    /// The run, its times counted from t0.
+    #[must_use]
+    pub fn finish(self) -> Run {
         let Self { mut run, truth, estimates, goals } = self;
         run.is_ground_truth = !truth.is_empty();
         let poses = if truth.is_empty() { estimates } else { truth };

@@ -7,6 +7,7 @@ mod summary;
 mod track;
 
 pub use csv::CsvError;
+pub use extract::RunBuilder;
 pub use summary::{Closest, RobotSummary, RunSummary, ShapeSample, SummaryOptions, summary};
 pub use track::{GoalSample, Pose, Track};
 

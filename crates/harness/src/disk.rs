@@ -1,0 +1,20 @@
+//! Files of this machine, for cores that are made in this process.
+
+use trench_config::{ConfigError, Origin};
+use trench_core::Files;
+
+/// The file system.
+#[derive(Debug, Clone, Copy)]
+pub struct Disk;
+
+impl Files for Disk {
+    fn read(&self, key: &str, path: &str) -> Result<String, ConfigError> {
+        std::fs::read_to_string(path).map_err(|error| ConfigError {
+            origin: Origin::new(path, 0),
+            key: key.to_owned(),
+            value: path.to_owned(),
+            problem: error.to_string(),
+            remedy: "name a file that can be read".to_owned(),
+        })
+    }
+}
