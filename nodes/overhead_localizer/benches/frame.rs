@@ -4,8 +4,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use overhead_localizer::description;
 use overhead_localizer::vision::{ColourLimits, Detector, Expectation, Frame};
 use std::error::Error;
+use trench_config::ConfigError;
 use trench_config::params::{Source as Given, resolve};
-use trench_config::{ConfigError, Origin};
 use trench_core::{Event, Files, Level, NodeContext, NodeCore, RequestId, RosTime, Sink, Source, Steady, Times};
 use trench_msgs::Encode;
 use trench_msgs::sensor_msgs::Image;
@@ -62,8 +62,7 @@ fn core() -> Result<Box<dyn NodeCore>, Box<dyn Error>> {
     let description = description();
     let sources = [Given::File { name: "parameters", text: PARAMETERS }];
     let parameters = resolve(&sources, "/", description.name, &(description.parameters)())
-        .map_err(|mut errors| errors.swap_remove(0))
-        .or_else(|error: ConfigError| Err(ConfigError { origin: Origin::default(), ..error }))?;
+        .map_err(|mut errors| errors.swap_remove(0))?;
     Ok((description.build)(&NodeContext::default(), &parameters, &Shipped)?)
 }
 
