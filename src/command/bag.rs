@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use trench_bag::run::{Run, SummaryOptions, summary};
-use trench_bag::{BagError, BagReader, BagWriter, Stamp, WriteOptions};
+use trench_bag::{BagError, BagMessage, BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::Qos;
 
 mod info;
@@ -91,21 +91,27 @@ fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), 
 fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
     let bag = open(path)?;
     let mut writer = BagWriter::create(out, WriteOptions::default())?;
+    let copied = copy(&bag, &mut writer);
+    // Also a copy that a full disk ended is finished: it is a bag.
+    let count = writer.message_count();
+    writer.finish()?;
+    copied?;
+    println!("{count} messages recovered into {}", out.display());
+    Ok(())
+}
+
+fn copy(bag: &BagReader, writer: &mut BagWriter) -> Result<(), BagError> {
     let mut ids = Vec::new();
     for topic in bag.topics() {
         ids.push(writer.add_topic(&topic.name, topic.topic_type(), Qos::RELIABLE)?);
     }
     for message in bag.messages() {
         let message = message?;
-        let stamp =
-            Stamp { log_time: message.log_time, publish_time: message.publish_time, sequence: message.sequence };
+        let BagMessage { log_time, publish_time, sequence, .. } = message;
         if let Some(&id) = ids.get(message.topic) {
-            writer.write(id, stamp, &message)?;
+            writer.write(id, Stamp { log_time, publish_time, sequence }, &message)?;
         }
     }
-    let count = writer.message_count();
-    writer.finish()?;
-    println!("{count} messages recovered into {}", out.display());
     Ok(())
 }
 
