@@ -32,7 +32,12 @@ impl TimeAxes {
             .map_err(text)?;
         let mut mesh = chart.configure_mesh();
         mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
-        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).y_desc(self.quantity).y_labels(6).x_labels(10);
+        mesh.set_all_tick_mark_size(4 * UNIT)
+            .label_style(font(12))
+            .axis_desc_style(font(13))
+            .y_desc(self.quantity)
+            .y_labels(6)
+            .x_labels(10);
         mesh.y_label_formatter(&|value| short(*value)).x_label_formatter(&|value| short(*value));
         if self.names_time {
             mesh.x_desc("t (s)");

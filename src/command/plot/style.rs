@@ -64,11 +64,7 @@ pub(super) fn picture(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Result<(
 }
 
 /// Draws one entry a robot, from left to right, then `notes` on what else is drawn.
-pub(super) fn legend<'a>(
-    area: &Area<'_>,
-    robots: impl Iterator<Item = &'a String>,
-    notes: &str,
-) -> Result<(), String> {
+pub(super) fn legend<'a>(area: &Area<'_>, robots: impl Iterator<Item = &'a String>, notes: &str) -> Result<(), String> {
     const SCALE: i32 = UNIT as i32;
     let middle = LEGEND / 2;
     let style = font(13).pos(Pos::new(HPos::Left, VPos::Center));
