@@ -60,7 +60,8 @@ fn a_wrong_domain_ends_with_2() {
 #[test]
 fn signals_end_a_node_cleanly_after_its_last_words() {
     for (number, name) in ["INT", "TERM"].into_iter().enumerate() {
-        let talker = Island::new(31 + number as u16).start("talker", "--ros-args -p rate:=100.0 --log-level debug");
+        let island = Island::new(31 + number as u16);
+        let talker = island.start("talker", "--ros-args -p rate:=100.0 --log-level debug");
         talker.wait_for_log("said 5");
         talker.signal(name);
         let (code, _, errors) = talker.end();
@@ -97,7 +98,8 @@ fn a_foreign_type_on_a_topic_is_reported_and_not_read() {
 
 #[test]
 fn simulated_time_stands_at_zero_until_a_clock_speaks() {
-    let talker = Island::new(36).start("talker", "--ros-args -p use_sim_time:=true -p count:=3 -p rate:=100.0");
+    let island = Island::new(36);
+    let talker = island.start("talker", "--ros-args -p use_sim_time:=true -p count:=3 -p rate:=100.0");
     let (code, _, errors) = talker.end();
     assert_eq!(
         (code, errors.as_slice()),

@@ -11,7 +11,6 @@ use std::time::{Duration, Instant};
 pub(crate) const PATIENCE: Duration = Duration::from_secs(40);
 
 /// Keeps the processes of one test apart from all others.
-#[derive(Clone)]
 pub(crate) struct Island {
     domain: u16,
     name: String,
@@ -50,6 +49,18 @@ impl Island {
         let lines = follow(child.stdout.take().unwrap());
         let errors = follow(child.stderr.take().unwrap());
         Running { child, lines, errors }
+    }
+}
+
+impl Drop for Island {
+    /// A process that was killed leaves its shared memory to the next one of its island, and there is none.
+    fn drop(&mut self) {
+        let mark = format!("_{}_", self.name);
+        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
+            if entry.file_name().to_string_lossy().contains(&mark) {
+                let _already_gone = std::fs::remove_file(entry.path());
+            }
+        }
     }
 }
 

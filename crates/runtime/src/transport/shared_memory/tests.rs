@@ -10,13 +10,26 @@ struct Pair {
     host: Host,
     topic: SharedTopic,
     poll: Poll,
+    prefix: String,
+}
+
+impl Drop for Pair {
+    /// The node's management file has no next node of this prefix to use it.
+    fn drop(&mut self) {
+        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
+            if entry.file_name().to_string_lossy().contains(&format!("_{}_", self.prefix)) {
+                let _already_gone = std::fs::remove_file(entry.path());
+            }
+        }
+    }
 }
 
 impl Pair {
     fn new(test: &str) -> Self {
-        let host = Host::join_apart(7, &format!("{test}{}", std::process::id())).unwrap();
+        let prefix = format!("{test}{}", std::process::id());
+        let host = Host::join_apart(7, &prefix).unwrap();
         let topic = host.topic("/bytes", TYPE);
-        Self { host, topic, poll: Poll::new().unwrap() }
+        Self { host, topic, poll: Poll::new().unwrap(), prefix }
     }
 
     fn writer(&self, max_len: usize, qos: Qos) -> SharedWriter {
