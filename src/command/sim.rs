@@ -5,14 +5,13 @@ use clap::Parser;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 use trench_bag::run::{RunBuilder, SummaryOptions, summary};
 use trench_bag::{BagError, BagWriter, Stamp, TopicId, TopicType, WriteOptions};
 use trench_core::{Advertise, Level, Source, Times};
-use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load};
-use trench_launch::Request;
+use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load, plan};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -79,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
-    let plan = resolve(&arguments.file, &arguments.arguments)?;
+    let plan = plan(&arguments.file, &arguments.arguments.iter().cloned().collect())?;
     let loaded = load(&plan, &Disk, arguments.seed)?;
     for label in &loaded.left_out {
         eprintln!("trench sim: {label} is no node of ours and is left out");
@@ -110,22 +109,6 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
         Ending::Exit { code, .. } => code,
         Ending::Silence => 0,
         Ending::TimeOver => 1,
-    })
-}
-
-/// Resolves a launch file for lock-step: `render` is off unless it was asked for.
-fn resolve(file: &Path, given: &[(String, String)]) -> Result<trench_launch::Plan, trench_config::ConfigError> {
-    let mut arguments: BTreeMap<String, String> = given.iter().cloned().collect();
-    let declared = trench_launch::arguments(file)?;
-    if declared.iter().any(|argument| argument.name == "render") {
-        arguments.entry("render".to_owned()).or_insert_with(|| "false".to_owned());
-    }
-    trench_launch::resolve(&Request {
-        file,
-        arguments: &arguments,
-        environment: &std::env::vars().collect(),
-        additions: &BTreeMap::new(),
-        parameter_folder: Path::new("/nonexistent"),
     })
 }
 

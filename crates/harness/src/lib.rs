@@ -10,5 +10,5 @@ mod lockstep;
 
 pub use bus::BusError;
 pub use disk::Disk;
-pub use load::{LoadError, Loaded, load};
+pub use load::{LoadError, Loaded, load, plan};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};

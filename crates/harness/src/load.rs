@@ -2,12 +2,13 @@
 
 use crate::catalog;
 use crate::lockstep::Instance;
+use std::collections::BTreeMap;
 use std::path::Path;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, ParameterDescriptor};
 use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
 use trench_core::{Files, NodeContext, NodeDescription, StartError};
-use trench_launch::{Plan, Process};
+use trench_launch::{Plan, Process, Request};
 
 /// Why a launch file cannot be driven in lock-step.
 #[derive(Debug, thiserror::Error)]
@@ -44,6 +45,25 @@ pub struct Loaded {
     pub instances: Vec<Instance>,
     /// Labels of what was left out.
     pub left_out: Vec<String>,
+}
+
+/// Resolves a launch file for lock-step: `render` is off unless it is asked for.
+///
+/// # Errors
+/// The first thing that is wrong with the file, those it includes, or the arguments.
+pub fn plan(file: &Path, arguments: &BTreeMap<String, String>) -> Result<Plan, ConfigError> {
+    let mut arguments = arguments.clone();
+    if trench_launch::arguments(file)?.iter().any(|argument| argument.name == "render") {
+        arguments.entry("render".to_owned()).or_insert_with(|| "false".to_owned());
+    }
+    trench_launch::resolve(&Request {
+        file,
+        arguments: &arguments,
+        environment: &std::env::vars().collect(),
+        additions: &BTreeMap::new(),
+        // Nobody writes them: their text is in the plan.
+        parameter_folder: Path::new("parameters"),
+    })
 }
 
 /// Makes the cores of all nodes that `plan` starts. `seed` goes to every core's context.
