@@ -1,6 +1,7 @@
 //! Real processes for the tests: the talker and the listener of the examples.
 
 use std::io::{BufRead, BufReader, Read};
+use std::os::unix::fs::MetadataExt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
@@ -61,6 +62,9 @@ impl Drop for Island {
                 let _already_gone = std::fs::remove_file(entry.path());
             }
         }
+        let user = std::fs::metadata("/proc/self").unwrap().uid();
+        let folder = std::env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{}", self.name));
+        let _never_made = std::fs::remove_dir_all(folder);
     }
 }
 

@@ -79,7 +79,7 @@ fn config(prefix: &str) -> Result<Config, String> {
     let mut config = Config::default();
     let wrong = |error| format!("TRENCH_SHM_PREFIX is `{prefix}`: {error:?}; use letters and digits");
     config.global.prefix = FileName::new(format!("trench_{user}_{prefix}_").as_bytes()).map_err(wrong)?;
-    let root = env::temp_dir().join(format!("trench-{user}")).join("shared_memory");
+    let root = env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{prefix}"));
     let root =
         Path::new(root.as_os_str().as_encoded_bytes()).map_err(|error| format!("{}: {error:?}", root.display()))?;
     config.global.set_root_path(&root);

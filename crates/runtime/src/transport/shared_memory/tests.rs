@@ -21,6 +21,9 @@ impl Drop for Pair {
                 let _already_gone = std::fs::remove_file(entry.path());
             }
         }
+        let user = rustix::process::getuid().as_raw();
+        let folder = std::env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{}", self.prefix));
+        let _already_gone = std::fs::remove_dir_all(folder);
     }
 }
 
