@@ -1,0 +1,73 @@
+//! What the experiments share: starts, lock-step runs, verdicts.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use trench_bag::run::{Run, RunBuilder};
+use trench_core::{Advertise, Level, Source, Times};
+use trench_harness::{Disk, Ending, Lockstep, Observer, load, plan};
+use trench_sim::Random;
+
+/// The root of the repository.
+pub(crate) fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Start poses as the launch argument `poses` wants them: x, y, heading of `robots` robots anywhere on the bed, bodies
+/// 0.1 m apart from each other and from the edges.
+pub(crate) fn random_poses(robots: usize, seed: u64) -> String {
+    let mut random = Random::new(seed, 99);
+    let mut poses: Vec<[f64; 3]> = Vec::new();
+    while poses.len() < robots {
+        // The discs must be in view: at pad height 2.40 m x 1.77 m of the bed's 2.48 m x 1.83 m.
+        let pose = [random.between(0.2, 2.28), random.between(0.2, 1.63), random.between(-3.1, 3.1)];
+        let apart = |other: &[f64; 3]| libm::hypot(pose[0] - other[0], pose[1] - other[1]) > 0.26;
+        if poses.iter().all(apart) {
+            poses.push(pose);
+        }
+    }
+    let numbers: Vec<String> = poses.iter().flatten().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// A finished lock-step run.
+pub(crate) struct Finished {
+    pub(crate) run: Run,
+    pub(crate) ending: Ending,
+    /// Warnings and errors that nodes logged.
+    pub(crate) complaints: Vec<String>,
+    /// FNV-1a over everything published, in order.
+    pub(crate) digest: u64,
+}
+
+struct Watch {
+    builder: RunBuilder,
+    complaints: Vec<String>,
+    digest: u64,
+}
+
+impl Observer for Watch {
+    fn published(&mut self, _: Times, topic: &str, advertise: &Advertise, _: Source, cdr: &[u8]) {
+        self.builder.take(topic, advertise.type_info.name, cdr);
+        for byte in topic.bytes().chain(cdr.iter().copied()) {
+            self.digest = (self.digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn logged(&mut self, at: Times, node: &str, level: Level, text: &str) {
+        if level >= Level::Warn {
+            self.complaints.push(format!("[{:.3}] {node}: {text}", at.steady.0 as f64 * 1e-9));
+        }
+    }
+}
+
+/// Drives a launch file in lock-step to its end.
+pub(crate) fn drive(file: &str, arguments: &[(&str, &str)]) -> Finished {
+    let arguments: BTreeMap<String, String> =
+        arguments.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let path = root().join(Path::new("launch")).join(file);
+    let loaded = load(&plan(&path, &arguments).unwrap(), &Disk, 1).unwrap();
+    let mut lockstep = Lockstep::new(loaded.instances).unwrap();
+    let mut watch = Watch { builder: RunBuilder::default(), complaints: Vec::new(), digest: 0xcbf2_9ce4_8422_2325 };
+    let ending = lockstep.run(600.0, &mut watch);
+    Finished { run: watch.builder.finish(), ending, complaints: watch.complaints, digest: watch.digest }
+}
