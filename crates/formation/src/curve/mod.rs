@@ -14,6 +14,7 @@ mod quadrature;
 mod shape;
 mod simple;
 mod spline;
+mod within;
 
 pub use encroachment::{Interval, encroached, qualified_fragments};
 pub use error::CurveError;

@@ -134,6 +134,21 @@ impl Curve {
         start.into_iter().chain(end)
     }
 
+    /// Arc lengths of the feet on the extensions.
+    pub(super) fn extension_feet(&self, point: Vector2<f64>) -> impl Iterator<Item = f64> {
+        let length = self.length;
+        self.extensions(point).filter_map(move |(_, place)| match place {
+            Place::Before(beyond) => Some(-beyond),
+            Place::After(beyond) => Some(length + beyond),
+            Place::On(..) => None,
+        })
+    }
+
+    /// The foot at a parameter of a piece.
+    pub(super) fn foot_on(&self, index: usize, parameter: f64, point: Vector2<f64>) -> Foot {
+        self.foot(Place::On(index, parameter), point)
+    }
+
     /// Whether the distance falls towards the start of piece `joint` from neither side; `away` points to the joint.
     fn is_minimum_at_joint(&self, joint: usize, away: Vector2<f64>) -> bool {
         let slack = 1e-9 * away.norm();

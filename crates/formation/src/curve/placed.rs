@@ -1,5 +1,5 @@
 //! A curve seen from the frame in which its formation moves.
-use super::{Curve, Foot, NearestSet};
+use super::{Curve, Foot, Interval, NearestSet};
 use nalgebra::{Isometry2, Vector2};
 
 /// A curve and the pose of its frame, for instance the target's: all queries are in frame `map`.
@@ -15,6 +15,11 @@ impl<'a> Placed<'a> {
         Self { curve, map_from_curve }
     }
 
+    /// The curve in its own frame.
+    pub fn curve(&self) -> &'a Curve {
+        self.curve
+    }
+
     /// Point, tangent and curvature at `arc_length`, as [`Curve::at`].
     pub fn at(&self, arc_length: f64) -> Foot {
         self.to_map(self.curve.at(arc_length))
@@ -23,6 +28,11 @@ impl<'a> Placed<'a> {
     /// As [`Curve::nearest`].
     pub fn nearest(&self, point: Vector2<f64>) -> Foot {
         self.to_map(self.curve.nearest(self.to_curve(point)))
+    }
+
+    /// As [`Curve::nearest_within`].
+    pub fn nearest_within(&self, point: Vector2<f64>, interval: Interval) -> Foot {
+        self.to_map(self.curve.nearest_within(self.to_curve(point), interval))
     }
 
     /// As [`Curve::nearest_all`].

@@ -1,4 +1,4 @@
-//! Control laws of chapters 3 to 6.
+//! Control laws of chapters 3 to 8.
 //!
 //! The kinematic laws are pure functions of [`Polar`]; [`Tracking`] carries (3.13) over to goal points that move.
 mod dead_band;
@@ -6,8 +6,11 @@ mod direct;
 mod family;
 mod goal_tracking;
 mod lyapunov;
+mod nearest;
 mod nominal;
+mod push;
 mod queue;
+mod rigid_motion;
 mod robust;
 mod tracking;
 mod zoned;
@@ -19,8 +22,11 @@ pub use direct::Direct;
 pub use family::Family;
 pub use goal_tracking::{Capability, GoalTracking, Steered};
 pub use lyapunov::Lyapunov;
+pub use nearest::{Attracting, NearestAttraction};
 pub use nominal::Nominal;
+pub use push::Push;
 pub use queue::QueueFollowing;
+pub use rigid_motion::RigidMotion;
 pub use robust::Robust;
 pub use tracking::{GoalMotion, Tracked, Tracking};
 pub use zoned::{Attraction, ZonedAttraction};

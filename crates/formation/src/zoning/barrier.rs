@@ -1,22 +1,31 @@
 //! One wall of the zoning potential: strength/(2 delta^m) over the depth delta in front of a pole, bounded.
+use super::{Edge, Sharpness};
 
 /// A potential wall as a function of the distance delta to its pole: nothing from `width` on, rising towards the pole, and
 /// continued with its steepest permitted slope through the pole and beyond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Barrier {
     /// alpha or beta.
-    pub(super) strength: f64,
+    strength: f64,
     /// m.
-    pub(super) exponent: i32,
+    exponent: i32,
     /// delta at the edge of the zone, metres.
-    pub(super) width: f64,
+    width: f64,
     /// Whether the slope is lowered by its value at the edge, and so begins at 0.
-    pub(super) continuous: bool,
+    continuous: bool,
     /// The largest slope, m/s^2.
-    pub(super) cap: f64,
+    cap: f64,
 }
 
 impl Barrier {
+    pub(super) fn new(strength: f64, sharpness: Sharpness, width: f64, edge: Edge, cap: f64) -> Self {
+        let exponent = match sharpness {
+            Sharpness::One => 1,
+            Sharpness::Two => 2,
+        };
+        Self { strength, exponent, width, continuous: edge == Edge::Continuous, cap }
+    }
+
     /// -dPsi/d(delta) >= 0, m/s^2.
     pub(super) fn slope(&self, delta: f64) -> f64 {
         if delta >= self.width {

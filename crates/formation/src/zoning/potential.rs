@@ -56,16 +56,7 @@ impl Zoning {
                 return Err(ZoningError { name, value });
             }
         }
-        let barrier = |strength: f64, width: f64| Barrier {
-            strength,
-            exponent: match sharpness {
-                Sharpness::One => 1,
-                Sharpness::Two => 2,
-            },
-            width,
-            continuous: edge == Edge::Continuous,
-            cap: full_acceleration,
-        };
+        let barrier = |strength, width| Barrier::new(strength, sharpness, width, edge, full_acceleration);
         Ok(Self {
             radii,
             repulsion: barrier(strength.0, radii.rho_hat - radii.rho_underbar),

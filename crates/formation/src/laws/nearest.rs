@@ -1,0 +1,68 @@
+//! Laws (7.3), (7.4) and (7.13): towards the nearest point of the segment.
+use super::goal_tracking::pull;
+use super::{GoalMotion, Push, Steered};
+use crate::Vector2;
+use crate::kinematics::PointState;
+use crate::trench::Trench;
+
+/// u = r_ns'' + k (r_ns' - r') + Phi'(d) d_hat + sum of the forces of (7.12), with r_ns taken as *fixed in the segment's frame*.
+///
+/// The print lets r_ns slide along the segment with the robot, so that k d_ns' damps nothing along the segment and r_ns'' makes
+/// the equation singular there. Taken as fixed, the derivative of V = |r' - r_ns'|^2/2 + Phi_total along the motion is
+/// -k |r' - r_ns'|^2: the distance to a curve changes with the motion of its nearest point as a point of the curve, whichever
+/// point is nearest next. That holds for segments that translate; on a segment that turns with omega, r_ns' changes besides by
+/// omega times the sliding of the nearest point.
+///
+/// | thesis | here |
+/// |---|---|
+/// | k_i | [`Self::damping`] |
+/// | Phi_{i,ns} | [`Self::trench`] |
+/// | r_{i,ns} and its derivatives | [`Attracting::foot`] |
+/// | Psi_check, Psi_hat, Psi_hat^ob of (7.12) | [`Push`] |
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestAttraction<T> {
+    /// Phi.
+    pub trench: T,
+    /// k, 1/s. 2 or more in chains, 5 among obstacles (ERRATA).
+    pub damping: f64,
+    /// c of an additional damping c (v_leader - v), 1/s; 0 is the thesis's law.
+    pub leader_damping: f64,
+}
+
+/// The nearest point, and whether it draws the robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attracting {
+    /// The nearest point as a point of the moving segment: [`RigidMotion::at`](super::RigidMotion::at).
+    pub foot: GoalMotion,
+    /// Steps (5) of 7.5.2 and the recovery of 7.7 and Remark 6.4.1 suspend the attraction; damping goes on.
+    pub draws: bool,
+}
+
+impl<T: Trench> NearestAttraction<T> {
+    /// The acceleration of a robot. (7.4) is this without pushes, and the chain leader's law with its goal point as foot.
+    pub fn steer(
+        &self,
+        robot: PointState,
+        attracting: Attracting,
+        leader_velocity: Option<Vector2<f64>>,
+        pushes: impl IntoIterator<Item = Push>,
+    ) -> Steered {
+        let foot = attracting.foot;
+        let sliding = robot.velocity - foot.velocity;
+        let offset = foot.position - robot.position;
+        let relative =
+            leader_velocity.map_or_else(Vector2::zeros, |velocity| self.leader_damping * (velocity - robot.velocity));
+        let mut acceleration = foot.acceleration - self.damping * sliding + relative;
+        let mut lyapunov = 0.5 * sliding.norm_squared();
+        if attracting.draws {
+            acceleration += pull(&self.trench, offset);
+            lyapunov += self.trench.value(offset.norm());
+        }
+        for push in pushes {
+            acceleration += push.force;
+            lyapunov += push.value;
+        }
+        let lyapunov_rate = relative.dot(&sliding) - self.damping * sliding.norm_squared();
+        Steered { acceleration, lyapunov, lyapunov_rate }
+    }
+}

@@ -1,0 +1,33 @@
+//! The terms of (7.12) besides the trench.
+use super::zoned::direction;
+use crate::Vector2;
+use crate::hull::Approach;
+use crate::zoning::{ObstaclePotential, Zoning};
+
+/// The gradient and value of one potential between a robot and something it keeps from, or keeps near to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Push {
+    /// Force, m/s^2.
+    pub force: Vector2<f64>,
+    /// Potential, m^2/s^2.
+    pub value: f64,
+}
+
+impl Push {
+    /// Psi of the leader: repulsive in zone 2, attractive from zone 4 on.
+    pub fn of_leader(zoning: &Zoning, robot: Vector2<f64>, leader: Vector2<f64>) -> Self {
+        let (towards, distance) = direction(leader - robot);
+        Self { force: zoning.force(distance) * towards, value: zoning.value(distance) }
+    }
+
+    /// Psi_hat of another robot ahead in the chain: repulsive in zone 2.
+    pub fn of_robot_ahead(zoning: &Zoning, robot: Vector2<f64>, other: Vector2<f64>) -> Self {
+        let (towards, distance) = direction(other - robot);
+        Self { force: zoning.repulsion(distance) * towards, value: zoning.repulsive_value(distance) }
+    }
+
+    /// Psi_hat^ob of an apparent obstacle, (7.9).
+    pub fn of_obstacle(potential: &ObstaclePotential, approach: Approach) -> Self {
+        Self { force: potential.force(approach.gap) * approach.towards, value: potential.value(approach.gap) }
+    }
+}

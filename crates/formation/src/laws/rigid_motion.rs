@@ -1,0 +1,49 @@
+//! How the points of a moving segment move.
+use super::GoalMotion;
+use crate::Vector2;
+
+/// Motion of a segment's frame, which carries the segment: all in frame `map`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidMotion {
+    /// Motion of the frame's origin.
+    pub origin: GoalMotion,
+    /// Angular velocity, rad/s.
+    pub turn_rate: f64,
+    /// Angular acceleration, rad/s^2.
+    pub turn_acceleration: f64,
+}
+
+impl RigidMotion {
+    /// A segment that does not move.
+    pub fn at_rest() -> Self {
+        Self { origin: GoalMotion::at_rest(Vector2::zeros()), turn_rate: 0.0, turn_acceleration: 0.0 }
+    }
+
+    /// Motion of the point of the frame that is at `point` now.
+    pub fn at(&self, point: Vector2<f64>) -> GoalMotion {
+        let arm = point - self.origin.position;
+        let across = Vector2::new(-arm.y, arm.x);
+        GoalMotion {
+            position: point,
+            velocity: self.origin.velocity + self.turn_rate * across,
+            acceleration: self.origin.acceleration + self.turn_acceleration * across
+                - self.turn_rate * self.turn_rate * arm,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point of a wheel that rolls at 1 m/s: twice as fast on top, at rest below, and always drawn to the hub.
+    #[test]
+    fn a_rolling_wheel() {
+        let hub = GoalMotion { velocity: Vector2::new(1.0, 0.0), ..GoalMotion::at_rest(Vector2::new(3.0, 2.0)) };
+        let wheel = RigidMotion { origin: hub, turn_rate: -0.5, turn_acceleration: 0.25 };
+        let (top, bottom) = (wheel.at(Vector2::new(3.0, 4.0)), wheel.at(Vector2::new(3.0, 0.0)));
+        assert_eq!((top.velocity, top.acceleration), (Vector2::new(2.0, 0.0), Vector2::new(-0.5, -0.5)));
+        assert_eq!((bottom.velocity, bottom.acceleration), (Vector2::new(0.0, 0.0), Vector2::new(0.5, 0.5)));
+        assert_eq!(RigidMotion::at_rest().at(Vector2::new(1.0, 2.0)), GoalMotion::at_rest(Vector2::new(1.0, 2.0)));
+    }
+}
