@@ -1,14 +1,30 @@
 //! What outlives the process: run state, zero of time, assignment (invariant 12).
+//!
+//! A checkpoint is there for a process that died and was started again. A clean end clears it, and one that is older than
+//! [`FRESH`] is of another run: nobody wants yesterday's run to go on.
 
 use crate::RunMachine;
 use trench_core::RosTime;
 use trench_msgs::msg::{Assignment, RunState};
+use trench_msgs::std_msgs::Header;
 use trench_msgs::{Encode, Message};
+
+/// A checkpoint is rewritten every second and lasts this long, s: the time a supervisor takes to start a process again.
+pub(crate) const FRESH: f64 = 10.0;
+
+/// A checkpoint that has been read.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Checkpoint {
+    pub(crate) written: RosTime,
+    pub(crate) run: RunMachine,
+    pub(crate) assignment: Option<Assignment>,
+}
 
 /// The state of a run as it goes into a file: two messages, each behind its length.
 #[must_use]
-pub(crate) fn write(run: &RunMachine, assignment: Option<&Assignment>) -> Vec<u8> {
+pub(crate) fn write(now: RosTime, run: &RunMachine, assignment: Option<&Assignment>) -> Vec<u8> {
     let state = RunState {
+        header: Header { stamp: now.into(), frame_id: String::new() },
         state: run.state(),
         t0: run.t0().map(Into::into).unwrap_or_default(),
         reason: run.reason().to_owned(),
@@ -24,7 +40,7 @@ pub(crate) fn write(run: &RunMachine, assignment: Option<&Assignment>) -> Vec<u8
 
 /// Reads it back, or nothing where the bytes are not what [`write`] makes: a damaged checkpoint is no checkpoint.
 #[must_use]
-pub(crate) fn read(bytes: &[u8]) -> Option<(RunMachine, Option<Assignment>)> {
+pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let (state, rest) = part(bytes)?;
     let (assignment, rest) = part(rest)?;
     if !rest.is_empty() {
@@ -32,9 +48,9 @@ pub(crate) fn read(bytes: &[u8]) -> Option<(RunMachine, Option<Assignment>)> {
     }
     let state = RunState::decode(state).ok()?;
     let t0 = RosTime::from(&state.t0);
-    let run = RunMachine::resume(state.state, (t0.0 != 0).then_some(t0), state.reason);
+    let run = RunMachine::resume(state.state, (t0.0 != 0).then_some(t0), state.reason.clone());
     let assignment = if assignment.is_empty() { None } else { Some(Assignment::decode(assignment).ok()?) };
-    Some((run, assignment))
+    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment })
 }
 
 fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
@@ -54,13 +70,16 @@ mod tests {
         run.request(Request::Start, Ok(())).unwrap();
         run.localised(RosTime(1_500_000_000));
         let assignment = Assignment { epoch: 7, ..Default::default() };
-        assert_eq!(read(&write(&run, Some(&assignment))), Some((run.clone(), Some(assignment))));
-        assert_eq!(read(&write(&run, None)), Some((run, None)));
+        let written = RosTime(9_000_000_000);
+        for assignment in [Some(assignment), None] {
+            let bytes = write(written, &run, assignment.as_ref());
+            assert_eq!(read(&bytes), Some(Checkpoint { written, run: run.clone(), assignment }));
+        }
     }
 
     #[test]
     fn damage_is_noticed() {
-        let bytes = write(&RunMachine::default(), None);
+        let bytes = write(RosTime(0), &RunMachine::default(), None);
         for length in 0..bytes.len() {
             assert_eq!(read(&bytes[..length]), None, "cut to {length}");
         }

@@ -1,9 +1,10 @@
 //! The node core.
 
+use crate::checkpoint::{self, Checkpoint, FRESH};
 use crate::organise::{Seated, organise};
 use crate::settings::{Settings, descriptors};
 use crate::virtual_point::{Carrier, virtual_point};
-use crate::{Request, RunMachine, checkpoint};
+use crate::{Request, RunMachine};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
@@ -40,6 +41,8 @@ pub struct LeaderAssignment {
     run: RunMachine,
     assignment: Option<Assignment>,
     seats: Vec<Seated>,
+    /// What an earlier life of the process left, until it is looked at.
+    checkpoint: Option<Checkpoint>,
     team: Option<TeamState>,
     target: Option<(Steady, Carrier)>,
     health: Health,
@@ -59,21 +62,15 @@ pub fn description() -> NodeDescription {
 
 fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let settings = Settings::read(parameters, files)?;
-    let resumed = context.checkpoint.as_deref().and_then(checkpoint::read);
-    let hash = settings.plan.message(Header::default()).hash;
-    // A checkpoint of another formation or other robots is of another run.
-    let resumed = resumed.filter(|(_, assignment)| {
-        assignment.as_ref().is_some_and(|old| old.formation_hash == hash && same_robots(old, &settings.robots))
-    });
-    let (run, assignment) = resumed.unwrap_or_default();
-    let seats = assignment.as_ref().map(|old| Seated::of_assignment(&settings.plan, old)).unwrap_or_default();
+    let checkpoint = context.checkpoint.as_deref().and_then(checkpoint::read);
     Ok(Box::new(LeaderAssignment {
         interface: interface(),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
         settings,
-        run,
-        assignment,
-        seats,
+        run: RunMachine::default(),
+        assignment: None,
+        seats: Vec::new(),
+        checkpoint,
         team: None,
         target: None,
         wakeup: None,
@@ -105,12 +102,25 @@ fn interface() -> Interface {
 }
 
 impl LeaderAssignment {
+    /// Takes up the run of an earlier life of the process: one of the same formation and robots that died just now.
+    fn resume(&mut self, at: Times, sink: &mut dyn Sink) {
+        let hash = self.settings.plan.message(Header::default()).hash;
+        let Some(Checkpoint { written, run, assignment: Some(assignment) }) = self.checkpoint.take() else { return };
+        let fresh = (0.0..=FRESH).contains(&at.ros.seconds_since(written));
+        if !fresh || assignment.formation_hash != hash || !same_robots(&assignment, &self.settings.robots) {
+            return;
+        }
+        sink.log(Level::Info, "going on with the run that was interrupted");
+        self.seats = Seated::of_assignment(&self.settings.plan, &assignment);
+        (self.run, self.assignment) = (run, Some(assignment));
+    }
+
     fn started(&mut self, at: Times, sink: &mut dyn Sink) {
+        self.resume(at, sink);
         let header = Header { stamp: at.ros.into(), frame_id: String::new() };
         sink.publish(FORMATION, &self.settings.plan.message(header));
         if let Some(assignment) = &self.assignment {
             sink.publish(ASSIGNMENT, assignment);
-            sink.log(Level::Info, "resumed the run that was interrupted");
         }
         self.announce(at, sink);
         self.wakeup = Some(at.steady.plus_seconds(1.0));
@@ -225,8 +235,12 @@ impl LeaderAssignment {
         }
     }
 
+    fn keep(&self, at: Times, sink: &mut dyn Sink) {
+        sink.checkpoint(&checkpoint::write(at.ros, &self.run, self.assignment.as_ref()));
+    }
+
     fn announce(&mut self, at: Times, sink: &mut dyn Sink) {
-        sink.checkpoint(&checkpoint::write(&self.run, self.assignment.as_ref()));
+        self.keep(at, sink);
         sink.publish(
             RUN_STATE,
             &RunState {
@@ -290,7 +304,14 @@ impl NodeCore for LeaderAssignment {
                 }
             }
             Event::Request { service, id, .. } => self.serve(at, service, id, sink),
-            Event::Wakeup => self.wakeup = Some(at.steady.plus_seconds(1.0)),
+            Event::Wakeup => {
+                self.wakeup = Some(at.steady.plus_seconds(1.0));
+                if self.run.running() {
+                    self.keep(at, sink);
+                }
+            }
+            // A clean end leaves nothing to go on with.
+            Event::Shutdown => sink.checkpoint(&[]),
             _ => {}
         }
         self.health.set(

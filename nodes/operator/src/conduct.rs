@@ -9,6 +9,8 @@ use trench_msgs::msg::RunState;
 pub enum Step {
     /// Nothing but watch.
     Watch,
+    /// Call reset: an earlier run was stopped.
+    Reset,
     /// Call arm.
     Arm,
     /// Call start.
@@ -102,7 +104,7 @@ impl Conduct {
             RunState::ARMED => self.wait(at, began, Step::Start),
             RunState::RUNNING => self.watch(at, run, distances),
             _ if self.started => Step::End(Verdict::Aborted(run.reason.clone())),
-            _ => self.wait(at, began, Step::Watch),
+            _ => self.wait(at, began, Step::Reset),
         }
     }
 
@@ -195,6 +197,13 @@ mod tests {
         let end = conduct.step(at(5.1), Some(&run(RunState::IDLE)), &near(1.0));
         let why = "the run did not start within 5 s: robot2 is not localised".to_owned();
         assert_eq!(end, Step::End(Verdict::Aborted(why)));
+    }
+
+    #[test]
+    fn what_an_earlier_run_left_is_reset() {
+        let mut conduct = Conduct::new(10.0, 0.02, 5.0, 1);
+        assert_eq!(conduct.step(at(0.0), Some(&run(RunState::STOPPED)), &near(1.0)), Step::Reset);
+        assert_eq!(conduct.step(at(0.6), Some(&run(RunState::IDLE)), &near(1.0)), Step::Arm);
     }
 
     #[test]

@@ -18,6 +18,7 @@ const RUN_STATE: usize = 2;
 const ARM: usize = 0;
 const START: usize = 1;
 const STOP: usize = 2;
+const RESET: usize = 3;
 
 /// Seconds between looks at the run, and between lines of progress.
 const LOOK: f64 = 0.1;
@@ -70,7 +71,7 @@ fn interface(assignment_node: &str) -> Interface {
             subscribe("/goals", Goals::TYPE, Qos::RELIABLE),
             subscribe("/run_state", RunState::TYPE, Qos::LATCHED),
         ],
-        clients: vec![trigger("arm"), trigger("start"), trigger("stop")],
+        clients: vec![trigger("arm"), trigger("start"), trigger("stop"), trigger("reset")],
         ..Interface::default()
     }
 }
@@ -94,6 +95,7 @@ impl Operator {
         };
         match self.conduct.step(at, self.run.as_ref(), &distances) {
             Step::Watch => {}
+            Step::Reset => sink.call(RESET, &TriggerRequest::default()),
             Step::Arm => sink.call(ARM, &TriggerRequest::default()),
             Step::Start => sink.call(START, &TriggerRequest::default()),
             Step::Stop => sink.call(STOP, &TriggerRequest::default()),

@@ -1,0 +1,166 @@
+//! The node as its neighbours see it: services, goals, run state, and what outlives it.
+
+use leader_assignment::description;
+use trench_config::params::{Source, resolve};
+use trench_config::{ConfigError, Parameters};
+use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
+use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState, TeamState};
+use trench_msgs::std_srvs::{TriggerRequest, TriggerResponse};
+use trench_msgs::{Encode, Message};
+
+struct Shipped;
+
+impl Files for Shipped {
+    fn read(&self, key: &str, path: &str) -> Result<String, ConfigError> {
+        let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
+        std::fs::read_to_string(path).map_err(|error| Parameters::default().error(key, error.to_string(), "a file"))
+    }
+}
+
+const FILE: (&str, &str) = ("formation_file", "config/formations/square.yaml");
+const ROBOTS: (&str, &str) = ("robots", "[robot1, robot2, robot3, robot4]");
+
+fn make(overrides: &[(&str, &str)], checkpoint: Option<Vec<u8>>) -> Result<Box<dyn NodeCore>, String> {
+    let sources: Vec<Source<'_>> =
+        overrides.iter().map(|(name, value)| Source::Override { node: None, name, value }).collect();
+    let node = description();
+    let parameters = resolve(&sources, "/", node.name, &(node.parameters)()).map_err(|errors| errors[0].to_string())?;
+    let context =
+        NodeContext { namespace: "/".to_owned(), name: node.name.to_owned(), checkpoint, ..Default::default() };
+    (node.build)(&context, &parameters, &Shipped).map_err(|error| error.to_string())
+}
+
+struct Bench {
+    core: Box<dyn NodeCore>,
+    out: Outbox,
+    seconds: f64,
+}
+
+impl Bench {
+    fn new(seconds: f64, checkpoint: Option<Vec<u8>>) -> Self {
+        let mut bench = Self { core: make(&[FILE, ROBOTS], checkpoint).unwrap(), out: Outbox::default(), seconds };
+        bench.handle(Event::Started);
+        bench
+    }
+
+    fn handle(&mut self, event: Event<'_>) {
+        let at = Times { ros: RosTime(0).plus_seconds(self.seconds), steady: Steady(0).plus_seconds(self.seconds) };
+        self.core.handle(at, event, &mut self.out);
+    }
+
+    fn call(&mut self, name: &str) -> TriggerResponse {
+        let service = self.core.interface().services.iter().position(|serve| serve.name.ends_with(name)).unwrap();
+        self.out.take();
+        let cdr = TriggerRequest::default().to_cdr();
+        self.handle(Event::Request { service, id: RequestId(1), cdr: &cdr });
+        let answer = self.out.actions.iter().find_map(|action| match action {
+            Action::Respond { cdr, .. } => Some(TriggerResponse::decode(cdr).unwrap()),
+            _ => None,
+        });
+        answer.unwrap()
+    }
+
+    fn see(&mut self, status: u8) {
+        let starts = [(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)];
+        let robot = |(index, (x, y)): (usize, (f64, f64))| RobotState {
+            name: format!("robot{}", index + 1),
+            status,
+            x,
+            y,
+            ..Default::default()
+        };
+        let mut team = TeamState { robots: starts.into_iter().enumerate().map(robot).collect(), ..Default::default() };
+        team.header.stamp = RosTime(0).plus_seconds(self.seconds).into();
+        let cdr = team.to_cdr();
+        self.handle(Event::Message { port: 0, source: Default::default(), cdr: &cdr });
+    }
+
+    fn last<M: Message>(&self, topic: &str) -> Option<M> {
+        let port = self.core.interface().publications.iter().position(|advertise| advertise.topic == topic).unwrap();
+        self.out.last(port)
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        let kept = self.out.actions.iter().rev().find_map(|action| match action {
+            Action::Checkpoint(bytes) => Some(bytes.clone()),
+            _ => None,
+        });
+        kept.unwrap()
+    }
+
+    fn running() -> Self {
+        let mut bench = Self::new(100.0, None);
+        bench.see(RobotState::STATUS_TRACKED);
+        assert!(bench.call("arm").success);
+        assert!(bench.call("start").success);
+        bench.seconds += 1.0;
+        bench.see(RobotState::STATUS_TRACKED);
+        bench
+    }
+}
+
+#[test]
+fn a_run_from_arm_to_stop() {
+    let mut bench = Bench::running();
+    let state: RunState = bench.last("/run_state").unwrap();
+    assert_eq!((state.state, RosTime::from(&state.t0)), (RunState::RUNNING, RosTime(101_000_000_000)));
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert_eq!(goals.goals.len(), 4);
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_APPROACH));
+    bench.seconds += 9.0;
+    bench.see(RobotState::STATUS_TRACKED);
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_MOVING && goal.velocity.x > 0.06));
+    assert!(bench.call("stop").success);
+    let state: RunState = bench.last("/run_state").unwrap();
+    assert_eq!(state.state, RunState::STOPPED);
+}
+
+#[test]
+fn nobody_arms_robots_that_are_not_seen() {
+    let mut bench = Bench::new(100.0, None);
+    let refused = bench.call("arm");
+    assert!(!refused.success && refused.message.contains("no /team_state"), "{refused:?}");
+    bench.see(RobotState::STATUS_LOST);
+    let refused = bench.call("arm");
+    assert_eq!(refused.message, "not localised: robot1, robot2, robot3, robot4");
+}
+
+#[test]
+fn a_process_that_died_goes_on_where_it_was() {
+    let mut died = Bench::running();
+    let before: Assignment = {
+        died.see(RobotState::STATUS_TRACKED);
+        let mut again = Bench::new(104.0, Some(died.checkpoint()));
+        again.see(RobotState::STATUS_TRACKED);
+        let state: RunState = again.last("/run_state").unwrap();
+        assert_eq!((state.state, RosTime::from(&state.t0)), (RunState::RUNNING, RosTime(101_000_000_000)));
+        assert_eq!(again.last::<Goals>("/goals").unwrap().goals.len(), 4);
+        again.last("/assignment").unwrap()
+    };
+    assert_eq!((before.epoch, before.members.len()), (1, 4));
+}
+
+#[test]
+fn yesterday_s_run_does_not_go_on() {
+    let state = |bench: &Bench| bench.last::<RunState>("/run_state").unwrap().state;
+    let died = Bench::running();
+    assert_eq!(state(&Bench::new(3600.0, Some(died.checkpoint()))), RunState::IDLE, "too old");
+    assert_eq!(state(&Bench::new(50.0, Some(died.checkpoint()))), RunState::IDLE, "from the future");
+    let mut ended = Bench::running();
+    ended.handle(Event::Shutdown);
+    assert_eq!(state(&Bench::new(102.0, Some(ended.checkpoint()))), RunState::IDLE, "it ended cleanly");
+    assert_eq!(state(&Bench::new(102.0, Some(vec![1, 2, 3]))), RunState::IDLE, "damaged");
+}
+
+#[test]
+fn what_cannot_be_is_refused_at_start() {
+    let refused = |overrides: &[(&str, &str)]| make(overrides, None).map(drop).unwrap_err();
+    assert!(refused(&[ROBOTS]).contains("no formation is given"));
+    assert!(refused(&[FILE]).contains("no robot takes part"));
+    let five = ("robots", "[a, b, c, d, e]");
+    assert!(refused(&[FILE, five]).contains("5 robots, but the formation square has 4 places"));
+    let twice = ("robots", "[robot1, robot2, robot1]");
+    assert!(refused(&[FILE, twice]).contains("two robots have the name robot1"));
+    assert!(refused(&[("formation_file", "nowhere.yaml"), ROBOTS]).contains("formation_file"));
+}
