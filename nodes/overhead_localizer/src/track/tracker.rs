@@ -167,7 +167,8 @@ fn measurement(settings: &Settings) -> Matrix3<f64> {
         of_disc * std::f64::consts::FRAC_1_SQRT_2,
         of_disc * std::f64::consts::SQRT_2 / settings.pad.disc_spacing,
     ];
-    let variance = |axis: usize| of_pose[axis] * of_pose[axis] + settings.added_sigma[axis].powi(2);
+    let added = settings.added_sigma.map(|sigma| sigma * sigma);
+    let variance = |axis: usize| of_pose[axis] * of_pose[axis] + added[axis];
     Matrix3::from_diagonal(&Vector3::new(variance(0), variance(1), variance(2)))
 }
 
