@@ -93,7 +93,7 @@ fn interface(settings: &Settings) -> Interface {
         publications.push(advertise(format!("/{name}/wheel_odom"), Odometry::TYPE));
         publications.push(advertise(format!("/{name}/link"), LinkStatus::TYPE));
         let ranges = 0..settings.ranges;
-        publications.extend(ranges.map(|sensor| advertise(format!("/{name}/range/{sensor}"), Range::TYPE)));
+        publications.extend(ranges.map(|sensor| advertise(format!("/{name}/range_{sensor}"), Range::TYPE)));
     }
     Interface {
         subscriptions,

@@ -251,9 +251,9 @@ fn telemetry_becomes_topics() {
     let travelled = both.place(2).0 - 0.4;
     assert!((wheels.pose.pose.position.x - travelled).abs() < 0.002, "{travelled}");
     // Robot 2 looks along x; robot 1 is 0.7 m to its right, 0.54 m from surface to surface.
-    let right: Range = both.bridge.last("/robot2/range/3");
+    let right: Range = both.bridge.last("/robot2/range_3");
     assert!((right.range - 0.54).abs() < 0.011, "{}", right.range);
-    let front: Range = both.bridge.last("/robot2/range/0");
+    let front: Range = both.bridge.last("/robot2/range_0");
     assert_eq!(front.range, f32::INFINITY);
     let link: LinkStatus = both.bridge.last("/robot1/link");
     assert!(link.up && link.hops == 1 && link.commands_sent > 55 && link.telemetry_received > 15, "{link:?}");
