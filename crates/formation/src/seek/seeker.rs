@@ -1,0 +1,144 @@
+//! Steps (4) to (6) of 7.5.2 and the decision on transits.
+use super::{Fragments, LeaderRule, SeekSettings};
+use crate::Vector2;
+use crate::curve::{Foot, Interval, Placed};
+use crate::zoning::{Radii, Zone};
+
+/// Distances that differ by less than this (m) make a tie.
+const TIE: f64 = 1e-9;
+
+/// What a robot knows of its leader.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeaderView {
+    /// m, frame `map`.
+    pub position: Vector2<f64>,
+    /// Distance from its nearest point, m.
+    pub distance: f64,
+    /// Speed relative to the segment, m/s.
+    pub speed: f64,
+}
+
+/// The outcome of a round of seeking.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sought {
+    /// The nearest point that draws the robot; its distance is that from the robot.
+    Point(Foot),
+    /// Step (5): a tie while the leader is still under way; the attraction is off.
+    Tie,
+    /// No fragment has room for a robot.
+    NoFragment,
+}
+
+/// One robot's memory of its nearest point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seeker {
+    kept: Option<f64>,
+}
+
+impl Seeker {
+    /// The nearest point for a robot at `robot` that follows `leader` (none for a chain leader, who decides ties by arc length).
+    /// `whole` is the segment's interval without encroachment.
+    ///
+    /// A robot follows the local minimum of the distance that it has, until another is nearer by more than the margin: so a
+    /// nearest point is unique (Assumption 7.2.1), and noise at a transit point moves nobody to and fro.
+    pub fn seek(
+        &mut self,
+        settings: &SeekSettings,
+        segment: &Placed<'_>,
+        (whole, fragments): (Interval, &Fragments),
+        robot: Vector2<f64>,
+        leader: Option<(LeaderView, &Radii)>,
+    ) -> Sought {
+        let far =
+            leader.is_some_and(|(leader, radii)| radii.zone((leader.position - robot).norm()) >= Zone::Attractive);
+        let whole = [whole];
+        let free = far && settings.leader_rule == LeaderRule::WholeSegmentWhileFar;
+        let intervals = if free { &whole } else { fragments.intervals() };
+        let search = Search { segment, robot, margin: settings.transit_margin };
+        let Some(best) = search.nearest(intervals, |_| true) else {
+            self.kept = None;
+            return Sought::NoFragment;
+        };
+        let settled = leader.filter(|(leader, _)| {
+            leader.distance <= settings.settled_distance && leader.speed <= settings.settled_speed
+        });
+        let in_zone = |(leader, radii): (LeaderView, &Radii), foot: &Foot| {
+            (leader.position - foot.point).norm() < radii.rho_check
+        };
+        let mut chosen = match search.keep(self.kept, intervals, best) {
+            Some(kept) => kept,
+            None => match (search.tied(intervals, best), leader, settled) {
+                (None, ..) | (_, None, _) => best,
+                (Some(_), Some(_), None) => return Sought::Tie,
+                (Some(other), _, Some(view)) => {
+                    if in_zone(view, &best) {
+                        best
+                    } else {
+                        other
+                    }
+                }
+            },
+        };
+        if let Some(view) = settled.filter(|view| !in_zone(*view, &chosen)) {
+            let reaches = |interval: Interval| in_zone(view, &segment.nearest_within(view.0.position, interval));
+            chosen = search.nearest(intervals, reaches).unwrap_or(chosen);
+        }
+        self.kept = Some(chosen.arc_length);
+        Sought::Point(chosen)
+    }
+
+    /// Arc length of the nearest point that the robot keeps, m.
+    pub fn kept(&self) -> Option<f64> {
+        self.kept
+    }
+}
+
+struct Search<'a> {
+    segment: &'a Placed<'a>,
+    robot: Vector2<f64>,
+    margin: f64,
+}
+
+impl Search<'_> {
+    /// (7.2) on those of the intervals that count; the first of equals.
+    fn nearest(&self, intervals: &[Interval], counts: impl Fn(Interval) -> bool) -> Option<Foot> {
+        let mut best: Option<Foot> = None;
+        for interval in intervals.iter().copied().filter(|interval| counts(*interval)) {
+            let foot = self.segment.nearest_within(self.robot, interval);
+            if best.is_none_or(|best| foot.distance < best.distance) {
+                best = Some(foot);
+            }
+        }
+        best
+    }
+
+    /// The minimum that the robot follows already, unless it is gone or `best` is nearer by more than the margin. A step
+    /// along the segment that is shorter than the margin is not worth the question.
+    fn keep(&self, kept: Option<f64>, intervals: &[Interval], best: Foot) -> Option<Foot> {
+        let kept = kept?;
+        if (best.arc_length - kept).abs() <= self.margin {
+            return Some(best);
+        }
+        let (from, to) = *intervals.iter().find(|(from, to)| from - TIE <= kept && kept <= to + TIE)?;
+        let tracked = self.segment.track(self.robot, kept.clamp(from, to));
+        let foot = if from <= tracked.arc_length && tracked.arc_length <= to {
+            tracked
+        } else {
+            let end = self.segment.at(tracked.arc_length.clamp(from, to));
+            Foot { distance: (end.point - self.robot).norm(), ..end }
+        };
+        (foot.distance <= best.distance + self.margin).then_some(foot)
+    }
+
+    /// Another nearest point as near as `best`, on its own fragment or on another.
+    fn tied(&self, intervals: &[Interval], best: Foot) -> Option<Foot> {
+        let differs = |foot: &Foot| (foot.point - best.point).norm() > TIE;
+        let ties = |foot: &Foot| differs(foot) && foot.distance <= best.distance + TIE * (1.0 + best.distance);
+        let on_others = intervals.iter().map(|interval| self.segment.nearest_within(self.robot, *interval)).find(ties);
+        on_others.or_else(|| {
+            let inside = |foot: &Foot| intervals.iter().any(|(a, b)| *a <= foot.arc_length && foot.arc_length <= *b);
+            let all = self.segment.nearest_all(self.robot).feet;
+            all.into_iter().find(|foot| inside(foot) && ties(foot))
+        })
+    }
+}
