@@ -1,5 +1,6 @@
 //! The experiments as processes in real time: `trench launch`, DDS, shared memory, a pseudo-terminal, judged from the
 //! recorded bag.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};

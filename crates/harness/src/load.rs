@@ -35,7 +35,7 @@ pub enum LoadError {
         /// The process.
         label: String,
         /// Why.
-        error: StartError,
+        error: Box<StartError>,
     },
 }
 
@@ -95,7 +95,8 @@ fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u
     let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
     let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
     let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
-    let core = (node.build)(&context, &resolved, files).map_err(|error| LoadError::Start { label: label(), error })?;
+    let core = (node.build)(&context, &resolved, files)
+        .map_err(|error| LoadError::Start { label: label(), error: Box::new(error) })?;
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
 }
 

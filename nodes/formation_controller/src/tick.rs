@@ -11,7 +11,7 @@ use trench_formation::hull::Outline;
 use trench_formation::kinematics::{Pose, Twist, Wheels, saturate};
 use trench_formation::laws::{GoalMotion, Tracked};
 use trench_formation::safety::{MovingOutline, Neighbour, Scene, Wish};
-use trench_msgs::msg::{Goal, LeaderState, RobotState, RunState};
+use trench_msgs::msg::{Goal, LeaderState, Queue, RobotState, RunState};
 use trench_plan::curve_from_message;
 
 /// Speeds by which a robot may miss its command before it counts as deviating, and for how long (invariant 8).
@@ -73,6 +73,12 @@ pub(crate) struct Command {
     pub(crate) tracked: Option<Tracked>,
 }
 
+/// The curves of a formation, made once, with their tolerances (m); none for a segment that is no curve.
+struct Segments {
+    formation_hash: u64,
+    queues: Vec<(Option<Curve>, f64)>,
+}
+
 /// The state of a controller between ticks.
 pub(crate) struct Tick {
     pub(crate) settings: Settings,
@@ -81,7 +87,7 @@ pub(crate) struct Tick {
     deviation: Deviation,
     holding: bool,
     last: Option<(RosTime, Wheels)>,
-    curves: Option<(u64, Vec<(Option<Curve>, f64)>)>,
+    segments: Option<Segments>,
 }
 
 impl Tick {
@@ -94,7 +100,7 @@ impl Tick {
             deviation: Deviation::new(speed, turn, patience),
             holding: false,
             last: None,
-            curves: None,
+            segments: None,
         }
     }
 
@@ -266,11 +272,12 @@ impl Tick {
     /// that move with the target are measured where their goal is, not here.
     pub(crate) fn segment_distance(&mut self, position: Vector2<f64>, queue: u32) -> Option<(f64, f64)> {
         let formation = self.inputs.formation.as_ref().filter(|formation| formation.header.frame_id == "map")?;
-        if self.curves.as_ref().is_none_or(|(hash, _)| *hash != formation.hash) {
-            let curve = |queue: &trench_msgs::msg::Queue| (curve_from_message(&queue.segment).ok(), queue.tolerance);
-            self.curves = Some((formation.hash, formation.queues.iter().map(curve).collect()));
+        if self.segments.as_ref().is_none_or(|known| known.formation_hash != formation.hash) {
+            let curve = |queue: &Queue| (curve_from_message(&queue.segment).ok(), queue.tolerance);
+            let queues = formation.queues.iter().map(curve).collect();
+            self.segments = Some(Segments { formation_hash: formation.hash, queues });
         }
-        let (curve, tolerance) = self.curves.as_ref()?.1.get(queue as usize)?;
+        let (curve, tolerance) = self.segments.as_ref()?.queues.get(queue as usize)?;
         Some((curve.as_ref()?.nearest(position).distance, *tolerance))
     }
 }

@@ -1,4 +1,5 @@
 //! The controller as its neighbours see it: messages in, messages out.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use formation_controller::description;
 use trench_config::params::{Source, resolve};
