@@ -60,12 +60,16 @@ impl Observer for Watch {
     }
 }
 
-/// Drives a launch file in lock-step to its end.
+/// Drives one of the launch files of this repository in lock-step to its end.
 pub(crate) fn drive(file: &str, arguments: &[(&str, &str)]) -> Finished {
+    drive_file(&root().join("launch").join(file), arguments)
+}
+
+/// Drives a launch file in lock-step to its end.
+pub(crate) fn drive_file(path: &Path, arguments: &[(&str, &str)]) -> Finished {
     let arguments: BTreeMap<String, String> =
         arguments.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-    let path = root().join(Path::new("launch")).join(file);
-    let loaded = load(&plan(&path, &arguments).unwrap(), &Disk, 1).unwrap();
+    let loaded = load(&plan(path, &arguments).unwrap(), &Disk, 1).unwrap();
     let mut lockstep = Lockstep::new(loaded.instances).unwrap();
     let mut watch = Watch { builder: RunBuilder::default(), complaints: Vec::new(), digest: 0xcbf2_9ce4_8422_2325 };
     let ending = lockstep.run(600.0, &mut watch);
