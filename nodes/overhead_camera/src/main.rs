@@ -1,0 +1,5 @@
+//! The camera's process.
+
+fn main() -> std::process::ExitCode {
+    trench_runtime::run(overhead_camera::description())
+}
