@@ -18,13 +18,20 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("trench_sim", &["trench_optics", "trench_radio"]),
     ("trench_plan", &["trench_config", "trench_formation", "trench_msgs"]),
     ("trench_bag", &["trench_config", "trench_core", "trench_msgs", "trench_rosidl"]),
-    ("trench_runtime", &["trench_config", "trench_core", "trench_msgs", "trench_rosidl"]),
+    ("trench_journal", &["trench_bag", "trench_config", "trench_core", "trench_msgs"]),
+    ("trench_runtime", &["trench_config", "trench_core", "trench_journal", "trench_msgs", "trench_rosidl"]),
     ("trench_harness", &["trench_bag", "trench_config", "trench_core", "trench_launch", "trench_msgs", NODES]),
+    ("trench_harness", &["trench_journal"]),
     (NODES, &["trench_config", "trench_core", "trench_msgs", LIBRARIES_OF_NODES]),
     ("testbed", &["trench_sim"]),
+    (CAMERA, &["trench_bag"]),
     ("trench", &["trench_bag", "trench_config", "trench_core", "trench_harness", "trench_launch", "trench_msgs"]),
-    ("trench", &["trench_plan", "trench_runtime"]),
+    ("trench", &["trench_journal", "trench_plan", "trench_runtime"]),
 ];
+
+/// The one node that reads devices, image folders and bags itself: what it publishes is new to the system, and recorded.
+const CAMERA: &str = "overhead_camera";
+const FOR_CAMERA: &[&str] = &["rustix", "trench_bag"];
 
 /// Stands for every package of the folder `nodes`.
 const NODES: &str = "nodes/*";
@@ -140,7 +147,9 @@ fn nothing_impure_reaches_a_core() {
     for package in pure.into_iter().chain(cores) {
         let built_from = built_from(&package);
         assert!(built_from.contains(&package), "cargo tree does not know {package}");
-        let found: Vec<&str> = IMPURE.iter().copied().filter(|name| built_from.contains(*name)).collect();
+        let excused = if package == CAMERA { FOR_CAMERA } else { &[] };
+        let banned = IMPURE.iter().copied().filter(|name| !excused.contains(name));
+        let found: Vec<&str> = banned.filter(|name| built_from.contains(*name)).collect();
         if !found.is_empty() {
             wrong.insert(package, found);
         }

@@ -87,12 +87,16 @@ fn is_computed(before: &[&str], here: &[&str]) -> bool {
     is_method || before.ends_with(&["f64", ":", ":"]) || before.ends_with(&["f32", ":", ":"])
 }
 
+/// Where the camera's node reads devices and files: in front of its core, as the test of its layers says too.
+const EXEMPT: &str = "nodes/overhead_camera/src/source";
+
 fn pure_sources(root: &Path) -> Vec<PathBuf> {
     let nodes = std::fs::read_dir(root.join("nodes")).unwrap().map(|entry| entry.unwrap().path());
     let mut sources = Vec::new();
     for package in PURE_CRATES.map(|name| root.join("crates").join(name)).into_iter().chain(nodes) {
         append_sources(&package.join("src"), &mut sources);
     }
+    sources.retain(|path| !path.starts_with(root.join(EXEMPT)));
     sources.sort();
     sources
 }
