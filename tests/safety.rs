@@ -7,6 +7,8 @@
 #[expect(dead_code, reason = "the experiments use the rest")]
 mod support;
 
+use trench_bag::run::Run;
+
 use std::fmt::Write;
 use support::{drive_file, random_poses, root};
 use trench_bag::run::{SummaryOptions, summary};
@@ -97,4 +99,32 @@ fn random_teams_arrive_without_contact() {
     }
     println!("{arrived} of {runs} teams arrived, the least gap between bodies was {closest:.4} m");
     assert!(f64::from(arrived) >= 0.98 * f64::from(runs), "{arrived} of {runs}");
+}
+
+/// The least distance (m) between the bodies of a run and a disc at rest.
+fn clearance(run: &Run, centre: [f64; 2], radius: f64) -> f64 {
+    let poses = run.robots.values().flat_map(|track| &track.poses);
+    let gap = |x: f64, y: f64| libm::hypot(x - centre[0], y - centre[1]) - radius - 0.08;
+    poses.map(|pose| gap(pose.x, pose.y)).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn obstacles_on_the_way_are_gone_round() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("field.yaml");
+    // One disc on the way of the near queue's points, one beside the far queue's segment.
+    let discs = [([0.85, 0.47], 0.07), ([1.5, 1.45], 0.05)];
+    let entry = |(centre, radius): &([f64; 2], f64)| format!("- {{polygon: [{centre:?}], radius: {radius}}}\n");
+    std::fs::write(&path, format!("obstacles:\n{}", discs.iter().map(entry).collect::<String>())).unwrap();
+    let launch = root().join("launch/square.launch.yaml");
+    let obstacles = path.display().to_string();
+    let finished = drive_file(&launch, &[("obstacles", &obstacles), ("duration", "60.0")]);
+    for (centre, radius) in discs {
+        let gap = clearance(&finished.run, centre, radius);
+        assert!(gap > 0.0, "a robot came {gap} m near the disc at {centre:?}");
+        println!("disc at {centre:?}: {gap:.3} m");
+    }
+    let summary = summary(&finished.run, &SummaryOptions::default());
+    assert!(summary.closest.as_ref().unwrap().gap > 0.0);
+    assert_eq!(finished.ending, Ending::Exit { node: "/operator".to_owned(), code: 0 }, "{summary}");
 }

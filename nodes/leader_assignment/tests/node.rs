@@ -155,6 +155,48 @@ fn yesterday_s_run_does_not_go_on() {
 }
 
 #[test]
+fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
+    struct OnTarget;
+    impl Files for OnTarget {
+        fn read(&self, _: &str, _: &str) -> Result<String, ConfigError> {
+            Ok("name: wing\nframe: target\nqueues:\n- name: left\n  \
+                segment: {kind: line, points: [[-1.0, 0.0], [0.0, 0.0]]}\n  vertices: [[-0.5, 0.0]]\n  \
+                share: 1.0\n  tolerance: 0.02\n"
+                .to_owned())
+        }
+    }
+    let node = description();
+    let sources = [FILE, ("robots", "[robot1]")].map(|(name, value)| Source::Override { node: None, name, value });
+    let parameters = resolve(&sources, "/", node.name, &(node.parameters)()).unwrap();
+    let core = (node.build)(&NodeContext::default(), &parameters, &OnTarget).unwrap();
+    let mut bench = Bench { core, out: Outbox::default(), seconds: 10.0 };
+    bench.handle(Event::Started);
+    bench.see(RobotState::STATUS_TRACKED);
+    assert!(bench.last::<Goals>("/goals").is_none(), "nobody knows where the formation is");
+    let mut target = trench_msgs::nav_msgs::Odometry::default();
+    (target.pose.pose.position.x, target.pose.pose.position.y) = (1.0, 1.0);
+    let quarter = std::f64::consts::FRAC_PI_4;
+    (target.pose.pose.orientation.w, target.pose.pose.orientation.z) = (quarter.cos(), quarter.sin());
+    (target.twist.twist.linear.x, target.twist.twist.angular.z) = (0.2, 0.1);
+    let cdr = target.to_cdr();
+    bench.handle(Event::Message { port: 1, source: Default::default(), cdr: &cdr });
+    assert!(bench.call("arm").success);
+    bench.see(RobotState::STATUS_TRACKED);
+    let goal = bench.last::<Goals>("/goals").unwrap().goals.remove(0);
+    // The target looks along y: the vertex half a metre behind it lies below it, and swings out as it turns left.
+    let near =
+        |value: f64, expected: f64| assert!((value - expected).abs() < 1e-9, "{value}, not {expected}: {goal:?}");
+    near(goal.position.x, 1.0);
+    near(goal.position.y, 0.5);
+    near(goal.velocity.x, 0.05);
+    near(goal.velocity.y, 0.2);
+    bench.seconds += 1.0;
+    bench.out.take();
+    bench.see(RobotState::STATUS_TRACKED);
+    assert!(bench.last::<Goals>("/goals").is_none(), "a silent target stops its formation");
+}
+
+#[test]
 fn what_cannot_be_is_refused_at_start() {
     let refused = |overrides: &[(&str, &str)]| make(overrides, None).map(drop).unwrap_err();
     assert!(refused(&[ROBOTS]).contains("no formation is given"));
