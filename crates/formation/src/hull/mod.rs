@@ -2,12 +2,14 @@
 //!
 //! [`Shape`] is the apparent obstacle of one obstacle, [`combine`] joins those between which no robot can pass,
 //! [`Outline`] measures distances from either.
+mod area;
 mod combine;
 mod convex;
 mod error;
 mod outline;
 mod shape;
 
+pub use area::RepulsiveArea;
 pub use combine::{ApparentObstacle, Obstacle, combine};
 pub use error::HullError;
 pub use outline::{Approach, Outline};

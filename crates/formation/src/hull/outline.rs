@@ -91,12 +91,12 @@ impl Outline<'_> {
     }
 
     /// Whether the polygon itself contains `point`.
-    fn holds(&self, point: Vector2<f64>) -> bool {
+    pub(super) fn holds(&self, point: Vector2<f64>) -> bool {
         self.points.len() > 2 && self.edges().all(|(start, end)| (end - start).perp(&(point - start)) >= 0.0)
     }
 
     /// Edges in order; a single point is an edge of length zero.
-    fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+    pub(super) fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
         let count = if self.points.len() == 2 { 1 } else { self.points.len() };
         (0..count).map(|i| (self.points[i], self.points[(i + 1) % self.points.len()]))
     }

@@ -1,4 +1,5 @@
 //! Stepping a chain.
+use super::remedy::{Drawn, Remedy};
 use super::{ChainScenario, Encroaching, ScenarioError};
 use crate::Vector2;
 use crate::curve::{Interval, Placed};
@@ -18,6 +19,7 @@ pub struct ChainSimulation<T> {
     /// Robots at the last tick, as others see them.
     seen: Vec<PointState>,
     seekers: Vec<Seeker>,
+    remedies: Vec<Remedy>,
     /// Distances from the nearest points at the last step, m.
     deviations: Vec<f64>,
     /// Fragments of each robot, or one for all.
@@ -48,6 +50,7 @@ impl<T: Trench> ChainSimulation<T> {
             robots: scenario.robots.clone(),
             seen: scenario.robots.clone(),
             seekers: vec![Seeker::default(); count],
+            remedies: vec![Remedy::default(); count],
             deviations: vec![f64::INFINITY; count],
             fragments: Vec::new(),
             steered: vec![rest; count],
@@ -86,16 +89,18 @@ impl<T: Trench> ChainSimulation<T> {
         Ok(())
     }
 
-    /// What draws a robot.
+    /// What draws a robot; updates its remedy.
     fn attract(&mut self, index: usize) -> Attracting {
         let (map_from_segment, motion) = self.frame;
         if let Some(goal) = self.scenario.team_goal.filter(|_| index == 0) {
             let foot = motion.at(map_from_segment.transform_point(&goal.into()).coords);
             self.deviations[index] = (foot.position - self.robots[index].position).norm();
+            self.remedy(index, Drawn::Goal(foot.position));
             return Attracting { foot, draws: true };
         }
         match self.seek(index) {
             Sought::Point(foot) => {
+                self.remedy(index, Drawn::To(foot));
                 self.deviations[index] = foot.distance;
                 Attracting { foot: motion.at(foot.point), draws: true }
             }
@@ -114,12 +119,24 @@ impl<T: Trench> ChainSimulation<T> {
                 Push::of_robot_ahead(&scenario.zoning, robot.position, state.position)
             }
         });
-        let obstacles = self
-            .obstacles
-            .iter()
-            .map(|obstacle| Push::of_obstacle(&scenario.potential, obstacle.shape.outline().approach(robot.position)));
+        let obstacles = self.obstacles.iter().enumerate().map(|(other, obstacle)| {
+            let approach = self.remedies[index].approach(other, obstacle, robot.position);
+            Push::of_obstacle(&scenario.potential, approach)
+        });
         let leader_velocity = index.checked_sub(1).map(|leader| self.seen[leader].velocity);
         scenario.law.steer(robot, attracting, leader_velocity, ahead.chain(obstacles))
+    }
+
+    fn remedy(&mut self, index: usize, drawn: Drawn) {
+        let Some(remedies) = &self.scenario.remedies else { return };
+        let segment = Placed::new(&self.scenario.segment, self.frame.0);
+        self.remedies[index].update(
+            remedies,
+            (self.steps as f64 * self.scenario.step, self.scenario.step),
+            self.robots[index].position,
+            (&segment, drawn),
+            (&self.obstacles, self.scenario.potential.cut()),
+        );
     }
 
     fn seek(&mut self, index: usize) -> Sought {

@@ -5,8 +5,9 @@
 //! encroaches on it, rests.
 mod carriage;
 mod chain;
+mod remedy;
 mod scenario;
 
 pub use carriage::Carriage;
 pub use chain::ChainSimulation;
-pub use scenario::{ChainScenario, Encroaching, ScenarioError};
+pub use scenario::{ChainScenario, Encroaching, Remedies, ScenarioError};

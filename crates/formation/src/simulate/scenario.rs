@@ -1,6 +1,7 @@
 //! What is simulated.
 use super::Carriage;
 use crate::Vector2;
+use crate::avoidance::WatchSettings;
 use crate::curve::Curve;
 use crate::hull::{HullError, Obstacle};
 use crate::kinematics::PointState;
@@ -34,6 +35,8 @@ pub struct ChainScenario<T> {
     pub seeking: SeekSettings,
     /// What encroaches on the segment.
     pub encroaching: Encroaching,
+    /// How robots get out of local minima; without it they stay.
+    pub remedies: Option<Remedies>,
     /// Step of integration, s.
     pub step: f64,
     /// Steps between two samples of what robots know of one another.
@@ -49,6 +52,15 @@ pub enum Encroaching {
     Obstacles,
     /// Robots ahead too (step (1) of 7.5.2): as obstacles of this radius (m), sought anew at every tick.
     ObstaclesAndRobots(f64),
+}
+
+/// Watching for local minima and raising guards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Remedies {
+    /// When a robot counts as caught.
+    pub watch: WatchSettings,
+    /// How fast a guard rises to its place, m/s.
+    pub rising: f64,
 }
 
 /// A scenario that cannot be run.

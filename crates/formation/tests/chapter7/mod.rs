@@ -49,6 +49,7 @@ pub(crate) fn chain_of_7_10(damping: f64) -> ChainScenario<Hyperbolic> {
             leader_rule: LeaderRule::StepSix,
         },
         encroaching: Encroaching::Nothing,
+        remedies: None,
         step: 0.001,
         steps_per_tick: 1,
     }
