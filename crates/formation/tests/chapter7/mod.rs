@@ -66,6 +66,13 @@ pub(crate) struct Run {
     pub(crate) nearest_obstacles: [f64; 4],
 }
 
+impl Run {
+    /// Whether every robot is within `tolerance` (m) of the diagonal.
+    pub(crate) fn on_segment(&self, tolerance: f64) -> bool {
+        self.robots.iter().all(|robot| (robot.position.x - robot.position.y).abs() < tolerance * 2.0_f64.sqrt())
+    }
+}
+
 /// Runs 200 s.
 pub(crate) fn run(scenario: ChainScenario<Hyperbolic>) -> Run {
     let steps = (200.0 / scenario.step).round() as u64;
