@@ -1,6 +1,6 @@
 //! What a core is connected to.
 
-use trench_msgs::{ServiceInfo, TypeInfo};
+use trench_msgs::{Message, Service, ServiceInfo, TypeInfo, service_info};
 
 /// Whether lost samples are sent again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +69,13 @@ pub struct Subscribe {
     pub qos: Qos,
 }
 
+impl Subscribe {
+    /// A topic of messages `M`.
+    pub fn to<M: Message>(topic: impl Into<String>, qos: Qos) -> Self {
+        Self { topic: topic.into(), type_info: M::TYPE, qos }
+    }
+}
+
 /// A topic that the core writes.
 #[derive(Debug, Clone)]
 pub struct Advertise {
@@ -82,6 +89,13 @@ pub struct Advertise {
     pub local: Local,
 }
 
+impl Advertise {
+    /// A topic of messages `M`.
+    pub fn of<M: Message>(topic: impl Into<String>, qos: Qos, local: Local) -> Self {
+        Self { topic: topic.into(), type_info: M::TYPE, qos, local }
+    }
+}
+
 /// A service that the core answers, or calls.
 #[derive(Debug, Clone)]
 pub struct Serve {
@@ -89,6 +103,13 @@ pub struct Serve {
     pub name: String,
     /// Its type.
     pub service: ServiceInfo,
+}
+
+impl Serve {
+    /// A service `S`.
+    pub fn of<S: Service>(name: impl Into<String>) -> Self {
+        Self { name: name.into(), service: service_info::<S>() }
+    }
 }
 
 /// A line of bytes in and out.

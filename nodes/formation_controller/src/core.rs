@@ -81,27 +81,30 @@ fn admit_gains(parameters: &Parameters) -> Result<Option<String>, ConfigError> {
 }
 
 fn interface(settings: &Settings, others: &[String]) -> Interface {
-    let subscribe = |topic: &str, type_info, qos| Subscribe { topic: topic.to_owned(), type_info, qos };
     let mut subscriptions = vec![
-        subscribe("/team_state", TeamState::TYPE, Qos::RELIABLE),
-        subscribe("/goals", Goals::TYPE, Qos::RELIABLE),
-        subscribe("/assignment", Assignment::TYPE, Qos::LATCHED),
-        subscribe("/formation", Formation::TYPE, Qos::LATCHED),
-        subscribe("/run_state", RunState::TYPE, Qos::LATCHED),
-        subscribe("/apparent_obstacles", ApparentObstacleArray::TYPE, Qos::RELIABLE),
-        subscribe("/emergency_stop", Bool::TYPE, Qos::RELIABLE),
+        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
+        Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
+        Subscribe::to::<Assignment>("/assignment", Qos::LATCHED),
+        Subscribe::to::<Formation>("/formation", Qos::LATCHED),
+        Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
+        Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE),
+        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
     ];
-    subscriptions.extend(
-        others.iter().map(|name| subscribe(&format!("/{name}/leader_state"), LeaderState::TYPE, Qos::RELIABLE)),
-    );
-    let advertise = |topic: String, type_info, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
-    let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
+    let leader_state = |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE);
+    subscriptions.extend(others.iter().map(leader_state));
+    let robot = &settings.robot;
+    let command = format!("/{robot}/cmd_vel");
+    let command = if settings.stamped {
+        Advertise::of::<TwistStamped>(command, Qos::RELIABLE, SMALL)
+    } else {
+        Advertise::of::<Twist>(command, Qos::RELIABLE, SMALL)
+    };
     Interface {
         subscriptions,
         publications: vec![
-            advertise(format!("/{}/cmd_vel", settings.robot), command, SMALL),
-            advertise(format!("/{}/leader_state", settings.robot), LeaderState::TYPE, SMALL),
-            advertise("/diagnostics".to_owned(), DiagnosticArray::TYPE, Local::NetworkOnly),
+            command,
+            Advertise::of::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE, SMALL),
+            Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
         ],
         ..Interface::default()
     }

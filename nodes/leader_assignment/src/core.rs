@@ -11,13 +11,13 @@ use trench_core::{
     RequestId, RosTime, Serve, Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
+use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{Assignment, Formation, Goal, Goals, Point2, RobotState, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Header;
 use trench_msgs::std_srvs::{Trigger, TriggerResponse};
-use trench_msgs::{Message, service_info};
 
 const TEAM_STATE: usize = 0;
 const TARGET: usize = 1;
@@ -84,19 +84,19 @@ fn same_robots(assignment: &Assignment, robots: &[String]) -> bool {
 }
 
 fn interface() -> Interface {
-    let subscribe = |topic: &str, type_info| Subscribe { topic: topic.to_owned(), type_info, qos: Qos::RELIABLE };
-    let advertise = |topic: &str, type_info, qos, local| Advertise { topic: topic.to_owned(), type_info, qos, local };
-    let serve = |name: &str| Serve { name: format!("~/{name}"), service: service_info::<Trigger>() };
     Interface {
-        subscriptions: vec![subscribe("/team_state", TeamState::TYPE), subscribe("/target", Odometry::TYPE)],
-        publications: vec![
-            advertise("/formation", Formation::TYPE, Qos::LATCHED, Local::NetworkOnly),
-            advertise("/assignment", Assignment::TYPE, Qos::LATCHED, Local::NetworkOnly),
-            advertise("/goals", Goals::TYPE, Qos::RELIABLE, TEAM),
-            advertise("/run_state", RunState::TYPE, Qos::LATCHED, Local::NetworkOnly),
-            advertise("/diagnostics", DiagnosticArray::TYPE, Qos::RELIABLE, Local::NetworkOnly),
+        subscriptions: vec![
+            Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
+            Subscribe::to::<Odometry>("/target", Qos::RELIABLE),
         ],
-        services: ["arm", "start", "stop", "reset"].map(serve).into(),
+        publications: vec![
+            Advertise::of::<Formation>("/formation", Qos::LATCHED, Local::NetworkOnly),
+            Advertise::of::<Assignment>("/assignment", Qos::LATCHED, Local::NetworkOnly),
+            Advertise::of::<Goals>("/goals", Qos::RELIABLE, TEAM),
+            Advertise::of::<RunState>("/run_state", Qos::LATCHED, Local::NetworkOnly),
+            Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
+        ],
+        services: ["arm", "start", "stop", "reset"].map(|name| Serve::of::<Trigger>(format!("~/{name}"))).into(),
         ..Interface::default()
     }
 }

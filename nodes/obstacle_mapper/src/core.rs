@@ -63,17 +63,17 @@ pub fn description() -> NodeDescription {
 }
 
 fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
-    let subscriptions =
-        vec![Subscribe { topic: "/obstacles".to_owned(), type_info: ObstacleArray::TYPE, qos: Qos::RELIABLE }];
-    let advertise =
-        |topic: &str, type_info, local| Advertise { topic: topic.to_owned(), type_info, qos: Qos::RELIABLE, local };
-    let publications = vec![
-        advertise("/apparent_obstacles", ApparentObstacleArray::TYPE, HULLS),
-        advertise("/markers", MarkerArray::TYPE, Local::NetworkOnly),
-        advertise("/diagnostics", DiagnosticArray::TYPE, Local::NetworkOnly),
-    ];
+    let interface = Interface {
+        subscriptions: vec![Subscribe::to::<ObstacleArray>("/obstacles", Qos::RELIABLE)],
+        publications: vec![
+            Advertise::of::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE, HULLS),
+            Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
+            Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
+        ],
+        ..Interface::default()
+    };
     Ok(Box::new(ObstacleMapper {
-        interface: Interface { subscriptions, publications, ..Interface::default() },
+        interface,
         settings: Settings::read(parameters)?,
         sources: Sources::default(),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),

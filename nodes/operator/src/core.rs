@@ -7,9 +7,9 @@ use trench_core::{
     Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Qos, Serve, Sink, StartError, Steady,
     Subscribe, Times,
 };
+use trench_msgs::Message;
 use trench_msgs::msg::{Goals, RunState, TeamState};
 use trench_msgs::std_srvs::{Trigger, TriggerRequest, TriggerResponse};
-use trench_msgs::{Message, service_info};
 
 const TEAM_STATE: usize = 0;
 const GOALS: usize = 1;
@@ -63,15 +63,15 @@ fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) ->
 }
 
 fn interface(assignment_node: &str) -> Interface {
-    let trigger = |name: &str| Serve { name: format!("{assignment_node}/{name}"), service: service_info::<Trigger>() };
-    let subscribe = |topic: &str, type_info, qos| Subscribe { topic: topic.to_owned(), type_info, qos };
     Interface {
         subscriptions: vec![
-            subscribe("/team_state", TeamState::TYPE, Qos::RELIABLE),
-            subscribe("/goals", Goals::TYPE, Qos::RELIABLE),
-            subscribe("/run_state", RunState::TYPE, Qos::LATCHED),
+            Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
+            Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
+            Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         ],
-        clients: vec![trigger("arm"), trigger("start"), trigger("stop"), trigger("reset")],
+        clients: ["arm", "start", "stop", "reset"]
+            .map(|name| Serve::of::<Trigger>(format!("{assignment_node}/{name}")))
+            .into(),
         ..Interface::default()
     }
 }
