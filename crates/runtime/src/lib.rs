@@ -13,6 +13,7 @@ mod checkpoint;
 mod clock;
 mod exit;
 mod help;
+mod journals;
 mod log;
 mod node;
 mod parameters;
@@ -24,5 +25,5 @@ mod timer;
 mod transport;
 
 pub use exit::Exit;
-pub use run::run;
+pub use run::{run, run_without_journal};
 pub use transport::TransportError;

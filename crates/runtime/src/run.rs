@@ -4,6 +4,7 @@ use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::exit::Exit;
 use crate::help;
+use crate::journals::journals;
 use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
 use crate::parameters::ParameterServer;
@@ -15,7 +16,8 @@ use std::{env, fs, io};
 use trench_config::params::{self, Source};
 use trench_config::{ConfigError, Origin, ParameterDescriptor, Parameters};
 use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
-use trench_core::{Files, NodeContext, NodeCore, NodeDescription, StartError};
+use trench_core::{Files, NodeContext, NodeCore, NodeDescription};
+use trench_journal::{BuildError, Journals};
 
 /// The highest domain whose ports exist.
 const LAST_DOMAIN: u16 = 232;
@@ -40,7 +42,7 @@ enum RunError {
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Config(Vec<ConfigError>),
     #[error(transparent)]
-    Start(#[from] StartError),
+    Build(#[from] BuildError),
     #[error(transparent)]
     Transport(#[from] TransportError),
     #[error("the event loop failed: {0}")]
@@ -51,18 +53,30 @@ impl RunError {
     fn exit(&self) -> Exit {
         match self {
             Self::Usage(_) => Exit::Usage,
-            Self::Config(_) | Self::Start(_) => Exit::Configuration,
+            Self::Config(_) | Self::Build(BuildError::Start(_)) => Exit::Configuration,
             Self::Transport(_) => Exit::Transport,
-            Self::System(_) => Exit::System,
+            Self::System(_) | Self::Build(BuildError::Journal(_)) => Exit::System,
         }
     }
 }
 
 /// Runs a node as this process does with its command line, until it is asked to end. What is wrong is said on standard
-/// error, and the exit code says of which kind it is ([`Exit`]).
+/// error, and the exit code says of which kind it is ([`Exit`]). Where the environment asks for journals
+/// (`TRENCH_JOURNAL_DIR`), the node keeps one.
 #[must_use]
 pub fn run(description: NodeDescription) -> ExitCode {
-    match run_with(description, env::args().skip(1)) {
+    run_with(description, journals(|name| env::var_os(name)))
+}
+
+/// As [`run`], for nodes that a journal could not replay because their cores are not pure: they read or write files or
+/// devices by themselves.
+#[must_use]
+pub fn run_without_journal(description: NodeDescription) -> ExitCode {
+    run_with(description, None)
+}
+
+fn run_with(description: NodeDescription, journals: Option<Journals>) -> ExitCode {
+    match try_run(description, env::args().skip(1), journals.as_ref()) {
         Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("{}: {error}", description.name);
@@ -71,7 +85,11 @@ pub fn run(description: NodeDescription) -> ExitCode {
     }
 }
 
-fn run_with(description: NodeDescription, command_line: impl Iterator<Item = String>) -> Result<u8, RunError> {
+fn try_run(
+    description: NodeDescription,
+    command_line: impl Iterator<Item = String>,
+    journals: Option<&Journals>,
+) -> Result<u8, RunError> {
     let arguments = Arguments::parse(command_line)?;
     let mut descriptors = (description.parameters)();
     descriptors.extend(own_parameters());
@@ -84,7 +102,7 @@ fn run_with(description: NodeDescription, command_line: impl Iterator<Item = Str
     let full = full_name(&names.namespace, &names.node);
     let parameters = parameters(&arguments, &names, &descriptors).map_err(RunError::Config)?;
     let checkpoint = Checkpoint::of(&full, domain);
-    let core = build(description, &names, &checkpoint, &parameters)?;
+    let core = build(description, &names, &checkpoint, &parameters, journals)?;
 
     let use_sim_time = parameters.bool(params::USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
     let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
@@ -140,6 +158,7 @@ fn build(
     names: &Names<'_>,
     checkpoint: &Checkpoint,
     parameters: &Parameters,
+    journals: Option<&Journals>,
 ) -> Result<Box<dyn NodeCore>, RunError> {
     let context = NodeContext {
         namespace: names.namespace.clone(),
@@ -147,7 +166,7 @@ fn build(
         checkpoint: checkpoint.read()?,
         seed: seed()?,
     };
-    Ok((description.build)(&context, parameters, &FileSystem)?)
+    Ok(trench_journal::build(&description, &context, parameters, &FileSystem, names, journals)?)
 }
 
 /// The host's randomness.
