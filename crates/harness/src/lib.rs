@@ -7,8 +7,9 @@ pub mod catalog;
 mod disk;
 mod load;
 mod lockstep;
+pub mod replay;
 
 pub use bus::BusError;
 pub use disk::Disk;
-pub use load::{LoadError, Loaded, load, plan};
+pub use load::{LoadError, Loaded, load, load_journalled, plan};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};

@@ -7,7 +7,8 @@ use std::path::Path;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, ParameterDescriptor};
 use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
-use trench_core::{Files, NodeContext, NodeDescription, StartError};
+use trench_core::{Files, NodeContext, NodeDescription};
+use trench_journal::{BuildError, Journals};
 use trench_launch::{Plan, Process, Request};
 
 /// Why a launch file cannot be driven in lock-step.
@@ -29,13 +30,13 @@ pub enum LoadError {
         /// All that is wrong.
         errors: Vec<ConfigError>,
     },
-    /// A core refuses to start.
+    /// A core refuses to start, or its journal cannot be made.
     #[error("{label}: {error}")]
     Start {
         /// The process.
         label: String,
         /// Why.
-        error: Box<StartError>,
+        error: Box<BuildError>,
     },
 }
 
@@ -71,18 +72,37 @@ pub fn plan(file: &Path, arguments: &BTreeMap<String, String>) -> Result<Plan, C
 /// # Errors
 /// At the first node that would not start as a process either.
 pub fn load(plan: &Plan, files: &dyn Files, seed: u64) -> Result<Loaded, LoadError> {
+    load_journalled(plan, files, seed, None)
+}
+
+/// As [`load`]; with `journals`, every core keeps a journal.
+///
+/// # Errors
+/// As [`load`], and where a journal cannot be made.
+pub fn load_journalled(
+    plan: &Plan,
+    files: &dyn Files,
+    seed: u64,
+    journals: Option<&Journals>,
+) -> Result<Loaded, LoadError> {
     let mut loaded = Loaded { instances: Vec::new(), left_out: Vec::new() };
     for process in &plan.processes {
         let program = process.argv.first().map(Path::new).and_then(Path::file_name);
         match program.and_then(|name| name.to_str()).and_then(catalog::node) {
-            Some(node) => loaded.instances.push(instance(node, process, files, seed)?),
+            Some(node) => loaded.instances.push(instance(node, process, files, seed, journals)?),
             None => loaded.left_out.push(process.label.clone()),
         }
     }
     Ok(loaded)
 }
 
-fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u64) -> Result<Instance, LoadError> {
+fn instance(
+    node: NodeDescription,
+    process: &Process,
+    files: &dyn Files,
+    seed: u64,
+    journals: Option<&Journals>,
+) -> Result<Instance, LoadError> {
     let label = || process.label.clone();
     let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
         .map_err(|error| LoadError::Usage { label: label(), error })?;
@@ -95,7 +115,7 @@ fn instance(node: NodeDescription, process: &Process, files: &dyn Files, seed: u
     let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
     let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
     let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
-    let core = (node.build)(&context, &resolved, files)
+    let core = trench_journal::build(&node, &context, &resolved, files, &names, journals)
         .map_err(|error| LoadError::Start { label: label(), error: Box::new(error) })?;
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
 }
