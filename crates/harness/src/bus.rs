@@ -33,12 +33,12 @@ struct Topic {
 /// Topics, services and byte streams by absolute name, and the deliveries due now, in order.
 #[derive(Debug, Default)]
 pub(crate) struct Bus {
-    topics: BTreeMap<String, Topic>,
+    topics: Vec<Topic>,
+    topic_names: BTreeMap<String, usize>,
     servers: BTreeMap<String, End>,
     callers: BTreeMap<RequestId, End>,
     masters: BTreeMap<String, End>,
     lines: BTreeMap<End, End>,
-    counts: BTreeMap<End, u64>,
     requests: u64,
     pub(crate) due: VecDeque<Delivery>,
 }
@@ -59,21 +59,23 @@ pub enum BusError {
 }
 
 impl Bus {
-    /// Puts all ends of an interface on the bus.
+    /// Puts all ends of an interface on the bus; gives the number of each publication's topic.
     pub(crate) fn join(
         &mut self,
         instance: usize,
         names: &Names<'_>,
         interface: &trench_core::Interface,
-    ) -> Result<(), BusError> {
+    ) -> Result<Vec<usize>, BusError> {
         let end = |index| End { instance, index };
         for (index, subscribe) in interface.subscriptions.iter().enumerate() {
             let topic = self.topic(names.resolve(&subscribe.topic, NameKind::Topic), subscribe.type_info.name)?;
-            topic.readers.push(end(index));
+            self.topics[topic].readers.push(end(index));
         }
+        let mut written = Vec::new();
         for (index, advertise) in interface.publications.iter().enumerate() {
             let topic = self.topic(names.resolve(&advertise.topic, NameKind::Topic), advertise.type_info.name)?;
-            topic.writers.push(end(index));
+            self.topics[topic].writers.push(end(index));
+            written.push(topic);
         }
         for (index, serve) in interface.services.iter().enumerate() {
             self.servers.insert(names.resolve(&serve.name, NameKind::Service), end(index));
@@ -83,18 +85,20 @@ impl Bus {
                 self.masters.insert(link.clone(), end(index));
             }
         }
-        Ok(())
+        Ok(written)
     }
 
-    fn topic(&mut self, name: String, type_name: &'static str) -> Result<&mut Topic, BusError> {
-        let topic = self.topics.entry(name.clone()).or_default();
-        if topic.type_name.is_empty() {
-            topic.type_name = type_name;
+    fn topic(&mut self, name: String, type_name: &'static str) -> Result<usize, BusError> {
+        if let Some(&number) = self.topic_names.get(&name) {
+            let first = self.topics[number].type_name;
+            if first != type_name {
+                return Err(BusError::Type { topic: name, first, second: type_name });
+            }
+            return Ok(number);
         }
-        if topic.type_name != type_name {
-            return Err(BusError::Type { topic: name, first: topic.type_name, second: type_name });
-        }
-        Ok(topic)
+        self.topics.push(Topic { type_name, ..Topic::default() });
+        self.topic_names.insert(name, self.topics.len() - 1);
+        Ok(self.topics.len() - 1)
     }
 
     /// Connects a serial port to the pseudo-terminal of the same path. Gives whether there is one.
@@ -110,24 +114,21 @@ impl Bus {
 
     /// Tells every reader how many writers it has.
     pub(crate) fn announce(&mut self) {
-        for topic in self.topics.values() {
+        for topic in self.topic_names.values().map(|number| &self.topics[*number]) {
             for &to in topic.readers.iter().filter(|_| !topic.writers.is_empty()) {
                 self.due.push_back(Delivery::Matched { to, writers: topic.writers.len() });
             }
         }
     }
 
-    /// Sends a message to all readers of its topic; gives its source.
-    pub(crate) fn publish(&mut self, from: End, topic: &str, cdr: &Rc<[u8]>) -> Source {
-        let count = self.counts.entry(from).or_default();
-        *count += 1;
-        let source = Source { gid: gid(from), sequence: *count };
-        if let Some(topic) = self.topics.get(topic) {
-            for &to in &topic.readers {
-                self.due.push_back(Delivery::Message { to, source, cdr: Rc::clone(cdr) });
-            }
+    /// Sends a message to all readers of the topic of this number.
+    pub(crate) fn publish(&mut self, topic: usize, source: Source, message: &[u8]) {
+        let readers = &self.topics[topic].readers;
+        if readers.is_empty() {
+            return;
         }
-        source
+        let cdr: Rc<[u8]> = message.into();
+        self.due.extend(readers.iter().map(|&to| Delivery::Message { to, source, cdr: Rc::clone(&cdr) }));
     }
 
     /// Sends a request to the server of `service`; without one the answer is nothing.
@@ -159,7 +160,7 @@ impl Bus {
 }
 
 /// A GID that is the same in every run: which instance, which publication.
-fn gid(end: End) -> [u8; 16] {
+pub(crate) fn gid(end: End) -> [u8; 16] {
     let mut gid = [0; 16];
     gid[..4].copy_from_slice(b"sim\0");
     gid[4..8].copy_from_slice(&(end.instance as u32).to_be_bytes());

@@ -3,10 +3,12 @@
 //! Time stands still while events are handled: what a core publishes arrives at its readers at the same instant, in the
 //! order of publication. Between instants time jumps to the earliest wakeup. Two runs are equal byte for byte.
 
+mod outlet;
+
 use crate::bus::{Bus, BusError, Delivery, End};
-use std::rc::Rc;
-use trench_core::arguments::{NameKind, Names, Remap};
-use trench_core::{Action, Advertise, ByteStream, Event, Level, NodeCore, Outbox, RosTime, Source, Steady, Times};
+use outlet::{Outlet, Outlets};
+use trench_core::arguments::{Names, Remap};
+use trench_core::{Advertise, ByteStream, Event, Level, NodeCore, RosTime, Source, Steady, Times};
 
 /// ROS time at the start of a run: 2020-01-01, so that stamps look like stamps.
 const EPOCH: RosTime = RosTime(1_577_836_800_000_000_000);
@@ -46,10 +48,8 @@ pub enum Ending {
 }
 
 struct Seat {
-    instance: Instance,
-    label: String,
-    topics: Vec<(String, Advertise)>,
-    clients: Vec<String>,
+    core: Box<dyn NodeCore>,
+    outlets: Outlets,
     ended: bool,
 }
 
@@ -58,7 +58,8 @@ pub struct Lockstep {
     seats: Vec<Seat>,
     bus: Bus,
     now: Steady,
-    outbox: Outbox,
+    /// Where messages are written; what is in it is of no interest afterwards.
+    scratch: Vec<u8>,
     ended: Option<Ending>,
 }
 
@@ -75,7 +76,7 @@ impl Lockstep {
             seats: Vec::new(),
             bus: Bus::default(),
             now: Steady(1_000_000_000),
-            outbox: Outbox::default(),
+            scratch: Vec::new(),
             ended: None,
         };
         for (index, instance) in instances.into_iter().enumerate() {
@@ -88,18 +89,15 @@ impl Lockstep {
     fn seat(&mut self, index: usize, instance: Instance) -> Result<(), BusError> {
         let names = Names::new(&instance.remaps, &instance.default_name);
         let interface = instance.core.interface();
-        self.bus.join(index, &names, interface)?;
-        let topic = |topic: &Advertise| (names.resolve(&topic.topic, NameKind::Topic), topic.clone());
-        let topics = interface.publications.iter().map(topic).collect();
-        let clients = interface.clients.iter().map(|serve| names.resolve(&serve.name, NameKind::Service)).collect();
-        let label = names.resolve("~", NameKind::Topic);
-        self.seats.push(Seat { instance, label, topics, clients, ended: false });
+        let topics = self.bus.join(index, &names, interface)?;
+        let outlets = Outlets::new(index, &names, interface, topics);
+        self.seats.push(Seat { core: instance.core, outlets, ended: false });
         Ok(())
     }
 
     fn plug(&mut self) {
         for (instance, seat) in self.seats.iter().enumerate() {
-            for (index, stream) in seat.instance.core.interface().byte_streams.iter().enumerate() {
+            for (index, stream) in seat.core.interface().byte_streams.iter().enumerate() {
                 if let ByteStream::Serial { path, .. } = stream {
                     self.bus.plug(End { instance, index }, path);
                 }
@@ -126,7 +124,7 @@ impl Lockstep {
                 return ending;
             }
             let next = self.seats.iter().enumerate().filter(|(_, seat)| !seat.ended);
-            let next = next.filter_map(|(index, seat)| Some((seat.instance.core.next_wakeup()?, index))).min();
+            let next = next.filter_map(|(index, seat)| Some((seat.core.next_wakeup()?, index))).min();
             match next {
                 None => return Ending::Silence,
                 Some((when, _)) if when > end => return Ending::TimeOver,
@@ -173,33 +171,12 @@ impl Lockstep {
         if seat.ended {
             return;
         }
-        seat.instance.core.handle(at, event, &mut self.outbox);
-        for action in self.outbox.take() {
-            self.carry_out(index, at, action, observer);
-        }
-    }
-
-    fn carry_out(&mut self, instance: usize, at: Times, action: Action, observer: &mut dyn Observer) {
-        let seat = &mut self.seats[instance];
-        match action {
-            Action::Publish { port, cdr } => {
-                let (topic, advertise) = &seat.topics[port];
-                let cdr: Rc<[u8]> = cdr.into();
-                let source = self.bus.publish(End { instance, index: port }, topic, &cdr);
-                observer.published(at, topic, advertise, source, &cdr);
-            }
-            Action::Respond { id, cdr, .. } => self.bus.respond(id, cdr.into()),
-            Action::Call { client, cdr } => {
-                self.bus.call(End { instance, index: client }, &seat.clients[client], cdr.into());
-            }
-            Action::Write { stream, bytes } => self.bus.write(End { instance, index: stream }, bytes.into()),
-            Action::Log { level, text } => observer.logged(at, &seat.label, level, &text),
-            // Nothing outlives a lock-step run.
-            Action::Checkpoint(_) => {}
-            Action::Exit(code) => {
-                seat.ended = true;
-                self.ended = Some(Ending::Exit { node: seat.label.clone(), code });
-            }
+        let (bus, scratch) = (&mut self.bus, &mut self.scratch);
+        let mut outlet = Outlet { outlets: &mut seat.outlets, at, bus, scratch, observer, exit: None };
+        seat.core.handle(at, event, &mut outlet);
+        if let Some(code) = outlet.exit {
+            seat.ended = true;
+            self.ended = Some(Ending::Exit { node: seat.outlets.label.clone(), code });
         }
     }
 }

@@ -82,10 +82,9 @@ pub struct Bed {
     outputs: VecDeque<Output>,
 }
 
-/// What is due next, in the order in which things of one instant happen.
+/// What is due next, in the order in which things of one instant happen: all of them after the world's step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
-    Step,
     Exposed,
     FrameReady,
     HostByte,
@@ -150,9 +149,14 @@ impl Bed {
 
     /// Lets time go on to `to` (ns), that instant included.
     pub fn advance(&mut self, to: u64) {
-        while let Some((at, due)) = self.next()
-            && at <= to
-        {
+        loop {
+            let next = self.dues().min().filter(|(at, _)| *at <= to);
+            let until = next.map_or(to, |(at, _)| at);
+            // Steps make nothing due: it is looked for between them no more than needed.
+            while self.world.now() + STEP <= until {
+                self.step();
+            }
+            let Some((at, due)) = next else { return };
             self.happen(at, due);
         }
     }
@@ -165,7 +169,7 @@ impl Bed {
     /// Nothing comes out before this time unless bytes are written, ns.
     #[must_use]
     pub fn next_output(&self) -> Option<u64> {
-        let silent = |due: &Due| matches!(due, Due::Step | Due::Exposed | Due::AtRobot);
+        let silent = |due: &Due| matches!(due, Due::Exposed | Due::AtRobot);
         let frame = self.frame_ready();
         self.dues().filter(|(_, due)| !silent(due)).map(|(at, _)| at).chain([frame]).min()
     }
@@ -183,16 +187,11 @@ impl Bed {
         self.exposure_middle() + self.shutter.delay.max(self.exposure_end())
     }
 
-    fn next(&self) -> Option<(u64, Due)> {
-        self.dues().min()
-    }
-
     fn dues(&self) -> impl Iterator<Item = (u64, Due)> {
         let reports = self.reports.iter().enumerate().map(|(robot, at)| (*at, Due::Report(robot)));
         let line = |line: &SerialLine, due| line.next_arrival().map(|at| (at, due));
         let flight = |flights: &BTreeMap<Flight, Flying>, due| flights.keys().next().map(|(at, _)| (*at, due));
         [
-            Some((self.world.now() + STEP, Due::Step)),
             Some((self.exposure_middle() + self.exposure_end(), Due::Exposed)),
             self.frames.front().map(|frame| (frame.ready_at, Due::FrameReady)),
             line(&self.from_host, Due::HostByte),
@@ -207,7 +206,6 @@ impl Bed {
 
     fn happen(&mut self, at: u64, due: Due) {
         match due {
-            Due::Step => self.step(),
             Due::Exposed => self.expose(),
             Due::FrameReady => self.outputs.extend(self.frames.pop_front().map(Output::Frame)),
             Due::HostByte => self.hear_host(at),

@@ -43,13 +43,19 @@ pub(crate) struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// The gaps of robot `index` if its centre were at `point`, to whatever is nearer than `reach`.
     pub(crate) fn near(&self, index: usize, point: [f64; 2], reach: f64) -> impl Iterator<Item = Near> {
-        let robots =
-            self.poses.iter().enumerate().filter(move |(other, _)| *other != index).map(move |(other, pose)| {
-                let offset = [point[0] - pose.x, point[1] - pose.y];
-                let distance = (offset[0] * offset[0] + offset[1] * offset[1]).sqrt();
-                let away = if distance > 0.0 { [offset[0] / distance, offset[1] / distance] } else { [1.0, 0.0] };
-                Near { thing: Thing::Robot(other), gap: distance - 2.0 * self.radius, away }
-            });
+        // Robots that are clearly farther need no root; the last filter compares exactly.
+        let clearly = (reach + 2.0 * self.radius) * (1.0 + 1e-9);
+        let others = self.poses.iter().enumerate().filter(move |(other, _)| *other != index);
+        let robots = others.filter_map(move |(other, pose)| {
+            let offset = [point[0] - pose.x, point[1] - pose.y];
+            let square = offset[0] * offset[0] + offset[1] * offset[1];
+            if square > clearly * clearly {
+                return None;
+            }
+            let distance = square.sqrt();
+            let away = if distance > 0.0 { [offset[0] / distance, offset[1] / distance] } else { [1.0, 0.0] };
+            Some(Near { thing: Thing::Robot(other), gap: distance - 2.0 * self.radius, away })
+        });
         let obstacles = self.obstacles.iter().enumerate().map(move |(number, obstacle)| {
             let (clearance, away) = obstacle.clearance(point);
             Near { thing: Thing::Obstacle(number), gap: clearance - self.radius, away }
@@ -83,7 +89,10 @@ impl Surroundings<'_> {
         if reach == 0.0 {
             return from;
         }
+        let (mut free, mut before) = (true, 0.0_f64);
         for near in self.near(index, from, reach) {
+            free = false;
+            before = before.min(near.gap);
             let towards = step[0] * near.away[0] + step[1] * near.away[1];
             if towards < 0.0 && near.gap + towards < 0.0 {
                 touched(near.thing);
@@ -91,7 +100,9 @@ impl Surroundings<'_> {
             }
         }
         let end = [from[0] + step[0], from[1] + step[1]];
-        let before = self.near(index, from, reach).map(|near| near.gap).fold(0.0, f64::min);
+        if free {
+            return end;
+        }
         let deeper = self.near(index, end, reach).any(|near| near.gap < before - 1e-12);
         if deeper { from } else { end }
     }

@@ -10,17 +10,17 @@ pub fn rolled(pose: Pose2, left: f64, right: f64, half_axle: f64) -> Pose2 {
     // The chord of the arc: its length by sin(x)/x of the half turn, its direction halfway between the headings.
     let half = 0.5 * turn;
     let chord = if half.abs() < 1e-4 { length * (1.0 - half * half / 6.0) } else { length * libm::sin(half) / half };
-    let direction = pose.theta + half;
-    Pose2 {
-        x: pose.x + chord * libm::cos(direction),
-        y: pose.y + chord * libm::sin(direction),
-        theta: wrapped(pose.theta + turn),
-    }
+    let (sin, cos) = libm::sincos(pose.theta + half);
+    Pose2 { x: pose.x + chord * cos, y: pose.y + chord * sin, theta: wrapped(pose.theta + turn) }
 }
 
 /// The angle in (-pi, pi].
 #[must_use]
 pub fn wrapped(angle: f64) -> f64 {
+    // Nearly every angle is one already.
+    if angle.abs() < 3.0 {
+        return angle;
+    }
     let wrapped = angle - TAU * ((angle + PI) / TAU).floor();
     if wrapped <= -PI { PI } else { wrapped }
 }

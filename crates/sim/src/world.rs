@@ -161,11 +161,10 @@ impl World {
             self.report(robot, thing);
         }
         // Things that move may come upon a robot that does not.
-        let overlaps = |thing: &Thing| matches!(thing, Thing::Obstacle(_));
-        let came: Vec<Thing> =
-            self.surroundings().near(robot, end, 0.0).map(|near| near.thing).filter(overlaps).collect();
-        for thing in came {
-            self.report(robot, thing);
+        for number in 0..self.obstacles.len() {
+            if self.obstacles[number].clearance(end).0 < self.body.radius {
+                self.report(robot, Thing::Obstacle(number));
+            }
         }
         let (sin, cos) = libm::sincos(old.theta);
         let v = ((pose.x - old.x) * cos + (pose.y - old.y) * sin) / STEP_SECONDS;

@@ -51,12 +51,14 @@ impl<'a> Reader<'a> {
     }
 
     /// The bytes not yet read.
+    #[inline]
     #[must_use]
     pub const fn remaining(&self) -> usize {
         self.body.len() - self.position
     }
 
     /// Whether the bytes are big endian.
+    #[inline]
     #[must_use]
     pub const fn big_endian(&self) -> bool {
         self.big_endian
@@ -66,6 +68,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When they are not.
+    #[inline]
     pub fn require(&self, count: usize, field: &'static str) -> Result<(), CdrError> {
         match count.checked_sub(self.remaining()) {
             None | Some(0) => Ok(()),
@@ -75,6 +78,7 @@ impl<'a> Reader<'a> {
 
     /// Skips padding up to a multiple of `alignment`, a power of two. Does nothing at the end of the bytes: what is read
     /// next finds them too short.
+    #[inline]
     pub fn align(&mut self, alignment: usize) {
         self.position = self.position.next_multiple_of(alignment).min(self.body.len());
     }
@@ -83,6 +87,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When they are not there.
+    #[inline]
     pub fn take(&mut self, count: usize, field: &'static str) -> Result<&'a [u8], CdrError> {
         self.require(count, field)?;
         let taken = &self.body[self.position..self.position + count];
@@ -94,6 +99,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When they are not there.
+    #[inline]
     pub fn take_aligned<const N: usize>(&mut self, field: &'static str) -> Result<[u8; N], CdrError> {
         self.align(N);
         let mut taken = [0; N];
@@ -105,6 +111,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// When the remaining bytes cannot hold so many: nothing has been reserved for them by then.
+    #[inline]
     pub fn length(&mut self, smallest: usize, field: &'static str) -> Result<usize, CdrError> {
         let length = u32::read(self, field)? as usize;
         self.require(length.saturating_mul(smallest), field)?;

@@ -38,10 +38,12 @@ impl Counter {
 }
 
 impl Output for Counter {
+    #[inline]
     fn align(&mut self, alignment: usize) {
         self.position = self.position.next_multiple_of(alignment);
     }
 
+    #[inline]
     fn put(&mut self, bytes: &[u8]) {
         self.position += bytes.len();
     }
@@ -64,6 +66,7 @@ impl<'a> Writer<'a> {
         self.position
     }
 
+    #[inline]
     fn next(&mut self, count: usize) -> Option<&mut [u8]> {
         let end = self.position.checked_add(count).filter(|end| !self.full && *end <= self.body.len());
         self.full = end.is_none();
@@ -74,6 +77,7 @@ impl<'a> Writer<'a> {
 }
 
 impl Output for Writer<'_> {
+    #[inline]
     fn align(&mut self, alignment: usize) {
         // Loaned memory holds what its last user left: padding is written, too.
         let padding = self.position.next_multiple_of(alignment) - self.position;
@@ -82,6 +86,7 @@ impl Output for Writer<'_> {
         }
     }
 
+    #[inline]
     fn put(&mut self, bytes: &[u8]) {
         if let Some(space) = self.next(bytes.len()) {
             space.copy_from_slice(bytes);
