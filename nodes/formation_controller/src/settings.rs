@@ -73,7 +73,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             .range(0.001, 1.0),
         P::double("safety.braking", 0.4, "m/s^2, deceleration the wheels can always hold").range(0.01, 100.0),
         P::double("safety.detour_speed", 0.08, "m/s, least speed on a way round a blockage").range(0.001, 10.0),
-        P::double("safety.margin", 0.005, "m, kept besides the rule, for errors of the vision").range(0.0, 1.0),
+        P::double("safety.margin", 0.01, "m, kept besides the rule, for errors of the vision").range(0.0, 1.0),
         P::double_list(
             "field",
             &[0.0, 0.0, 2.48, 1.83],
