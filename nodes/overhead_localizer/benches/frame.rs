@@ -90,12 +90,13 @@ fn run(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
 
     let expectation = Expectation::new(&camera, &Pad::NOMINAL).ok_or("the camera sees no pad")?;
     let detector = Detector::new(&ColourLimits::default(), expectation);
+    let mut room = Vec::new();
     let mut discs = Vec::new();
     let mut turn = images.iter().cycle();
     criterion.bench_function("detect discs, 6 robots", |bencher| {
         bencher.iter(|| {
             let image = turn.next().map_or(&[][..], |image| &image.data);
-            if let Ok(frame) = Frame::new([768, 576], "rgb8", [768, 576], 2304, image) {
+            if let Ok(frame) = Frame::new([768, 576], "rgb8", [768, 576], 2304, image, &mut room) {
                 detector.detect(frame, &mut discs);
             }
             discs.len()

@@ -41,12 +41,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let expectation = Expectation::new(&camera, &Pad::NOMINAL).ok_or("the camera sees no pad")?;
     let detector = Detector::new(&ColourLimits::default(), expectation);
+    let mut room = Vec::new();
     let (mut found, mut microseconds) = (Vec::new(), Vec::new());
     let (mut matched, mut surplus, mut sum2) = (0_usize, 0_usize, 0.0_f64);
     for pass in 0..PASSES {
         for (image, expected) in frames.chunks_exact(renderer.frame_len()).zip(&expected) {
             let start = Instant::now();
-            let frame = Frame::new([768, 576], "rgb8", [768, 576], 2304, image)?;
+            let frame = Frame::new([768, 576], "rgb8", [768, 576], 2304, image, &mut room)?;
             detector.detect(frame, &mut found);
             microseconds.push(start.elapsed().as_secs_f64() * 1e6);
             if pass > 0 {

@@ -9,7 +9,11 @@
 //! Architecture invariant: pixels appear only here and in the renderer; everything published is in the map.
 
 mod core;
+mod intake;
+mod markers;
+mod memory;
 mod messages;
+mod missing;
 mod noise;
 mod report;
 mod settings;

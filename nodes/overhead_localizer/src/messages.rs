@@ -14,7 +14,7 @@ use trench_msgs::std_msgs::Header;
 /// The variance of a place never known, m^2 and rad^2.
 const UNKNOWN: f64 = 1e6;
 /// "Never seen", s: fits into a duration.
-const NEVER: f64 = 1e9;
+pub(crate) const NEVER: f64 = 1e9;
 
 fn header(stamp: Time) -> Header {
     Header { stamp, frame_id: "map".to_owned() }

@@ -1,5 +1,6 @@
 //! What the localizer tells people: log lines when a robot's status changes, the state of camera and team once a second.
 
+use crate::missing::{self, Missing};
 use crate::stream::Stream;
 use crate::track::{Status, Track};
 use std::collections::BTreeMap;
@@ -15,6 +16,9 @@ pub(crate) struct Report {
     health: Health,
     port: usize,
     statuses: Vec<Status>,
+    /// Pads in the last frame.
+    pads: usize,
+    missing: Missing,
     /// Frames that were not understood, by reason.
     rejected: BTreeMap<String, u64>,
     last_frame: Option<Steady>,
@@ -29,6 +33,8 @@ impl Report {
             health,
             port,
             statuses: Vec::new(),
+            pads: 0,
+            missing: Missing::default(),
             rejected: BTreeMap::new(),
             last_frame: None,
             window: None,
@@ -48,8 +54,12 @@ impl Report {
     }
 
     /// Tells of every robot that was lost, found or became doubtful in this frame.
-    pub(crate) fn frame(&mut self, at: Times, tracks: &[Track], stream: &Stream, sink: &mut dyn Sink) {
+    pub(crate) fn frame(&mut self, at: Times, tracks: &[Track], pads: usize, stream: &Stream, sink: &mut dyn Sink) {
         self.last_frame = Some(at.steady);
+        self.pads = pads;
+        if let Some(text) = self.missing.look(at.steady, tracks, pads) {
+            sink.log(Level::Warn, &text);
+        }
         let before = std::mem::replace(&mut self.statuses, tracks.iter().map(|track| track.status).collect());
         for (index, track) in tracks.iter().enumerate() {
             let was = before.get(index).copied().unwrap_or(Status::Lost);
@@ -84,18 +94,17 @@ impl Report {
         self.health.value("camera", "frames out of order", stream.stale);
         self.health.value("camera", "frames dropped", rejected);
 
-        let names = |status: Status| {
-            let names: Vec<&str> =
-                tracks.iter().filter(|track| track.status == status).map(|track| track.name.as_str()).collect();
-            names.join(" ")
-        };
+        let names = |status: Status| missing::names(tracks, |track| track.status == status);
         let (lost, doubtful) = (names(Status::Lost), names(Status::Ambiguous));
-        let (condition, message) = match (lost.is_empty(), doubtful.is_empty()) {
-            (true, true) => (Condition::Ok, "all robots are seen".to_owned()),
-            (false, true) => (Condition::Warn, format!("lost: {lost}")),
-            (true, false) => (Condition::Error, format!("in doubt: {doubtful}")),
-            (false, false) => (Condition::Error, format!("in doubt: {doubtful}; lost: {lost}")),
+        let (condition, message) = match (missing::shortage(tracks, self.pads), doubtful.is_empty()) {
+            (Some(shortage), true) => (Condition::Warn, shortage),
+            (Some(shortage), false) => (Condition::Error, format!("in doubt: {doubtful}; {shortage}")),
+            (None, false) if lost.is_empty() => (Condition::Error, format!("in doubt: {doubtful}")),
+            (None, false) => (Condition::Error, format!("in doubt: {doubtful}; lost: {lost}")),
+            (None, true) if lost.is_empty() => (Condition::Ok, "all robots are seen".to_owned()),
+            (None, true) => (Condition::Warn, format!("lost: {lost}")),
         };
+        self.health.value("robots", "pads", self.pads);
         self.health.set("robots", condition, message);
         self.health.publish(at, self.port, sink);
     }

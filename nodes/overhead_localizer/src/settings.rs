@@ -11,6 +11,8 @@ use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
 pub(crate) enum Input {
     /// Frames on /overhead/image_raw.
     Image,
+    /// Frames on /overhead/image_raw/compressed.
+    Compressed,
     /// Discs on /overhead/detections.
     Detections,
 }
@@ -37,8 +39,13 @@ pub(crate) fn descriptors() -> Vec<P> {
         .read_only(),
         P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras)").read_only(),
         P::string("mount_file", "", "where the camera hangs (config/cameras)").read_only(),
-        P::string("input", "image", "image: find discs in /overhead/image_raw; detections: take /overhead/detections")
-            .read_only(),
+        P::string(
+            "input",
+            "image",
+            "image: find discs in /overhead/image_raw; compressed: in /overhead/image_raw/compressed (PNG or JPEG); \
+             detections: take /overhead/detections",
+        )
+        .read_only(),
         P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0).read_only(),
         P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres")
             .range(0.005, 1.0)
@@ -95,8 +102,9 @@ impl Settings {
         }
         let input = match parameters.str("input")? {
             "image" => Input::Image,
+            "compressed" => Input::Compressed,
             "detections" => Input::Detections,
-            _ => return Err(parameters.error("input", "is not an input", "write image or detections")),
+            _ => return Err(parameters.error("input", "is not an input", "write image, compressed or detections")),
         };
         let mut settings = Self {
             camera,
@@ -145,12 +153,12 @@ fn robots(parameters: &Parameters) -> Result<Vec<Robot>, ConfigError> {
     }
     let mut robots: Vec<Robot> = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
-        if name.is_empty() || robots.iter().any(|robot| robot.name == *name) {
-            return Err(parameters.error(
-                "robots",
-                format!("has the name {name:?} empty or twice"),
-                "give each its own",
-            ));
+        if name.is_empty() {
+            return Err(parameters.error("robots", "has an empty name", "give each robot a name"));
+        }
+        if robots.iter().any(|robot| robot.name == *name) {
+            let problem = format!("names two robots {name}");
+            return Err(parameters.error("robots", problem, "give each robot a name of its own"));
         }
         let start = match poses.get(3 * index..3 * index + 3) {
             Some(&[x, y, theta]) => Some(Pose2 { x, y, theta: track::wrap(theta) }),

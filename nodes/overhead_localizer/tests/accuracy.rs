@@ -30,7 +30,10 @@ impl Eye {
     fn see(&mut self, robots: &[Vec<Pose2>], frame: u64) -> Vec<MapDisc> {
         self.renderer.render(Scene { robots, obstacles: &[] }, frame, &mut self.image).unwrap();
         let mut discs = Vec::new();
-        self.detector.detect(Frame::new([768, 576], "rgb8", [768, 576], 2304, &self.image).unwrap(), &mut discs);
+        self.detector.detect(
+            Frame::new([768, 576], "rgb8", [768, 576], 2304, &self.image, &mut Vec::new()).unwrap(),
+            &mut discs,
+        );
         let camera = self.renderer.camera();
         discs.iter().filter_map(|disc| MapDisc::seen(camera, Pad::NOMINAL.height, disc.colour, disc.centre)).collect()
     }

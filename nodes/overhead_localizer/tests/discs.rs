@@ -45,7 +45,8 @@ fn detect(renderer: &Renderer, robots: &[Vec<Pose2>], frame: u64) -> Vec<Disc> {
     let mut image = vec![0; renderer.frame_len()];
     renderer.render(Scene { robots, obstacles: &[] }, frame, &mut image).unwrap();
     let mut discs = Vec::new();
-    let frame = Frame::new([768, 576], "rgb8", [768, 576], 2304, &image).unwrap();
+    let mut room = Vec::new();
+    let frame = Frame::new([768, 576], "rgb8", [768, 576], 2304, &image, &mut room).unwrap();
     detector(renderer.camera()).detect(frame, &mut discs);
     discs
 }

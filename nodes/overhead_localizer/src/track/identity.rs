@@ -14,8 +14,6 @@ use trench_optics::Pose2;
 const ALLOWANCE: [f64; 3] = [0.015, 0.015, 0.15];
 /// Squared distance (3 degrees of freedom) beyond which a pad is not the robot's.
 const GATE: f64 = 25.0;
-/// An exchange that costs less than this is as good: a likelihood ratio of e^6.
-const MARGIN: f64 = 12.0;
 /// More than the greatest cost of a hypothesis (gate, and the widest spread of `Filter::rest`): it is always better to
 /// match one more robot.
 const WORTH: f64 = 60.0;
@@ -31,6 +29,9 @@ pub(super) struct Hypotheses {
 }
 
 impl Hypotheses {
+    /// An exchange that costs less than this is as good: a likelihood ratio of e^6.
+    pub(super) const MARGIN: f64 = 12.0;
+
     pub(super) fn new(tracks: &[Track], pairs: &[Pair], measurement: &Matrix3<f64>) -> Self {
         let costs =
             tracks.iter().map(|track| pairs.iter().map(|pair| track.cost(pair.pose, measurement)).collect()).collect();
@@ -42,6 +43,12 @@ impl Hypotheses {
         assign(self.costs.len(), self.pads, |robot, pad| self.costs[robot][pad].map(|cost| WORTH - cost))
     }
 
+    /// How good an assignment is as a whole: a robot more counts for more than any cost.
+    pub(super) fn worth(&self, matched: &[Option<usize>]) -> f64 {
+        let pads = self.costs.iter().zip(matched).filter_map(|(costs, pad)| costs[(*pad)?]);
+        pads.map(|cost| WORTH - cost).sum()
+    }
+
     /// For each robot whether another assignment is nearly as good.
     pub(super) fn doubtful(&self, matched: &[Option<usize>]) -> Vec<bool> {
         let mut doubtful = vec![false; matched.len()];
@@ -50,7 +57,7 @@ impl Hypotheses {
             let Some(own_cost) = self.costs[robot][own] else { continue };
             // A free pad that it could be instead.
             for pad in (0..self.pads).filter(|pad| !matched.contains(&Some(*pad))) {
-                doubtful[robot] |= self.costs[robot][pad].is_some_and(|cost| cost - own_cost < MARGIN);
+                doubtful[robot] |= self.costs[robot][pad].is_some_and(|cost| cost - own_cost < Self::MARGIN);
             }
             for (other, others) in matched.iter().enumerate().filter(|(other, _)| *other != robot) {
                 let Some(other_here) = self.costs[other][own] else { continue };
@@ -64,7 +71,7 @@ impl Hypotheses {
                         here.map(|(robot_there, other_there)| robot_there + other_here - own_cost - other_there)
                     }
                 };
-                doubtful[robot] |= exchange.is_some_and(|extra| extra < MARGIN);
+                doubtful[robot] |= exchange.is_some_and(|extra| extra < Self::MARGIN);
             }
         }
         doubtful

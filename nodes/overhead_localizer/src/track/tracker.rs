@@ -42,8 +42,10 @@ pub struct Track {
 #[derive(Debug, Clone)]
 pub struct Tracker {
     settings: Settings,
-    tracks: Vec<Track>,
-    measurement: Matrix3<f64>,
+    pub(super) tracks: Vec<Track>,
+    /// What a former life knew, until the first pad is seen.
+    pub(super) remembered: Option<Vec<Track>>,
+    pub(super) measurement: Matrix3<f64>,
     strangers: Strangers,
     noise: Gaussian,
 }
@@ -63,6 +65,7 @@ impl Tracker {
         let measurement = measurement(&settings);
         let mut tracker = Self {
             tracks: Vec::new(),
+            remembered: None,
             measurement,
             strangers: Strangers::default(),
             noise: Gaussian::new(seed),
@@ -75,6 +78,7 @@ impl Tracker {
     /// Forgets all identities: they are found anew from the start poses or by order.
     pub fn reset(&mut self) {
         self.strangers = Strangers::default();
+        self.remembered = None;
         let unplaced = |robot: &super::settings::Robot| Track {
             name: robot.name.clone(),
             status: Status::Lost,
@@ -100,6 +104,7 @@ impl Tracker {
 
     /// Takes the discs of a frame exposed `dt` (s) after the previous one; gives the number of pads seen.
     pub fn step(&mut self, dt: f64, discs: &[MapDisc]) -> usize {
+        self.choose(discs);
         for track in &mut self.tracks {
             track.advance(dt, &self.settings);
         }
@@ -120,8 +125,8 @@ impl Tracker {
         pairs.len()
     }
 
-    /// The pads of a frame, with the noise that the settings ask for.
-    fn pairs(&mut self, discs: &[MapDisc]) -> Vec<Pair> {
+    /// The pads of a frame as they are seen.
+    pub(super) fn seen(&self, discs: &[MapDisc]) -> Vec<Pair> {
         let support = |pose| {
             let fits = self.tracks.iter().filter_map(|track| track.fit(pose, &self.measurement));
             fits.fold(0.0_f64, f64::max)
@@ -129,6 +134,12 @@ impl Tracker {
         let mut pairs = pairing::pair(discs, &self.settings.pad, self.settings.spacing_tolerance, support);
         // A fixed order, so that equal frames get equal noise whatever order their discs came in.
         pairs.sort_by(|a, b| a.pose.x.total_cmp(&b.pose.x).then(a.pose.y.total_cmp(&b.pose.y)));
+        pairs
+    }
+
+    /// The pads of a frame, with the noise that the settings ask for.
+    fn pairs(&mut self, discs: &[MapDisc]) -> Vec<Pair> {
+        let mut pairs = self.seen(discs);
         if self.settings.added_sigma.iter().any(|sigma| *sigma > 0.0) {
             let [sigma_x, sigma_y, sigma_theta] = self.settings.added_sigma;
             for Pair { pose, .. } in &mut pairs {

@@ -1,4 +1,6 @@
-//! A camera frame in place: bytes that belong to the transport, checked once.
+//! A camera frame, checked once: in place where its bytes are rgb8 or bgr8, otherwise converted.
+
+use super::yuyv;
 
 /// The order of a pixel's three bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +25,11 @@ pub struct Frame<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
     /// Not one of the encodings that can be read.
-    #[error("the encoding is {0:?}, it must be rgb8 or bgr8")]
+    #[error("the encoding is {0:?}, it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours")]
     Encoding(String),
+    /// Two pixels share their colour, and one has no partner.
+    #[error("the frame has rows of {0} pixels, yuv422_yuy2 needs an even number")]
+    Odd(usize),
     /// Another size than the camera's lens file says.
     #[error("the frame has {actual:?} pixels, the lens file says {expected:?}")]
     Size {
@@ -34,12 +39,14 @@ pub enum FrameError {
         actual: [usize; 2],
     },
     /// A row is shorter than its pixels.
-    #[error("the step is {step} bytes, a row of {width} pixels needs {}", 3 * width)]
+    #[error("the step is {step} bytes, a row of {width} pixels needs {needed}")]
     Step {
         /// Bytes a row by the message.
         step: usize,
         /// Pixels a row.
         width: usize,
+        /// Bytes that they take.
+        needed: usize,
     },
     /// Fewer bytes than rows times step.
     #[error("the frame has {actual} bytes, {expected} are needed")]
@@ -52,7 +59,8 @@ pub enum FrameError {
 }
 
 impl<'a> Frame<'a> {
-    /// Checks what an image message says of itself against the camera's `[width, height]`.
+    /// Checks what an image message says of itself against the camera's `[width, height]`. A frame that the detector cannot
+    /// read in place is converted into `room`.
     ///
     /// # Errors
     /// When the encoding, size, step or number of bytes is wrong.
@@ -62,24 +70,34 @@ impl<'a> Frame<'a> {
         [width, height]: [usize; 2],
         step: usize,
         bytes: &'a [u8],
+        room: &'a mut Vec<u8>,
     ) -> Result<Self, FrameError> {
-        let order = match encoding {
-            "rgb8" => ChannelOrder::Rgb,
-            "bgr8" => ChannelOrder::Bgr,
+        let (order, pixel_bytes) = match encoding {
+            "rgb8" => (Some(ChannelOrder::Rgb), 3),
+            "bgr8" => (Some(ChannelOrder::Bgr), 3),
+            "yuv422_yuy2" => (None, 2),
             other => return Err(FrameError::Encoding(other.to_owned())),
         };
         if [width, height] != camera_size {
             return Err(FrameError::Size { expected: camera_size, actual: [width, height] });
         }
-        if step < width.saturating_mul(3) {
-            return Err(FrameError::Step { step, width });
+        let needed = width.saturating_mul(pixel_bytes);
+        if step < needed {
+            return Err(FrameError::Step { step, width, needed });
         }
         // The last row may lack its padding.
-        let expected = step.saturating_mul(height.saturating_sub(1)).saturating_add(width.saturating_mul(3));
+        let expected = step.saturating_mul(height.saturating_sub(1)).saturating_add(needed);
         if bytes.len() < expected {
             return Err(FrameError::Length { expected, actual: bytes.len() });
         }
-        Ok(Self { width, height, step, order, bytes })
+        match order {
+            Some(order) => Ok(Self { width, height, step, order, bytes }),
+            None if !width.is_multiple_of(2) => Err(FrameError::Odd(width)),
+            None => {
+                yuyv::to_rgb(bytes, step.max(1), width, room);
+                Ok(Self { width, height, step: 3 * width, order: ChannelOrder::Rgb, bytes: room })
+            }
+        }
     }
 
     /// The pixels of row `v`, three bytes each; empty below the image.
@@ -92,16 +110,23 @@ impl<'a> Frame<'a> {
 mod tests {
     use super::*;
 
+    const MONO: &str =
+        "the encoding is \"mono8\", it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours";
+
     #[test]
     fn errors_say_what_is_wrong() {
         let check = |encoding: &str, size: [usize; 2], step: usize, bytes: usize, expected: Option<&str>| {
             let bytes = vec![0; bytes];
-            let result = Frame::new([8, 4], encoding, size, step, &bytes);
+            let mut room = Vec::new();
+            let result = Frame::new([8, 4], encoding, size, step, &bytes, &mut room);
             assert_eq!(result.err().map(|error| error.to_string()).as_deref(), expected);
         };
         check("rgb8", [8, 4], 24, 96, None);
         check("bgr8", [8, 4], 32, 120, None);
-        check("mono8", [8, 4], 8, 32, Some("the encoding is \"mono8\", it must be rgb8 or bgr8"));
+        check("mono8", [8, 4], 8, 32, Some(MONO));
+        check("yuv422_yuy2", [8, 4], 16, 64, None);
+        check("yuv422_yuy2", [8, 4], 15, 64, Some("the step is 15 bytes, a row of 8 pixels needs 16"));
+        check("yuv422_yuy2", [8, 4], 16, 63, Some("the frame has 63 bytes, 64 are needed"));
         check("rgb8", [8, 5], 24, 120, Some("the frame has [8, 5] pixels, the lens file says [8, 4]"));
         check("rgb8", [8, 4], 23, 96, Some("the step is 23 bytes, a row of 8 pixels needs 24"));
         check("rgb8", [8, 4], 24, 95, Some("the frame has 95 bytes, 96 are needed"));

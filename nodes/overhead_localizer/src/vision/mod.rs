@@ -8,7 +8,10 @@ mod centroid;
 mod chroma;
 mod detector;
 mod frame;
+mod packed;
+mod yuyv;
 
 pub use chroma::{Colour, ColourLimits};
 pub use detector::{Detector, Disc, Expectation};
 pub use frame::{ChannelOrder, Frame, FrameError};
+pub use packed::decode;

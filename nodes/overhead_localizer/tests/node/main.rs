@@ -2,6 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
 
+mod encodings;
+mod restart;
+mod viewers;
+
 use overhead_localizer::description;
 use trench_config::params::{Source as Given, resolve};
 use trench_config::{ConfigError, Origin};
@@ -20,8 +24,8 @@ use trench_msgs::tf2_msgs::TFMessage;
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
 use trench_sim::camera::{Appearance, Renderer, Scene};
 
-const LENS: &str = include_str!("../../../config/cameras/overhead.yaml");
-const MOUNT: &str = include_str!("../../../config/cameras/overhead_mount.yaml");
+const LENS: &str = include_str!("../../../../config/cameras/overhead.yaml");
+const MOUNT: &str = include_str!("../../../../config/cameras/overhead_mount.yaml");
 const START: [Pose2; 2] = [Pose2 { x: 0.5, y: 0.5, theta: 0.8 }, Pose2 { x: 1.5, y: 1.2, theta: -2.0 }];
 
 /// The files of config/cameras.
@@ -52,14 +56,28 @@ const PARAMETERS: &str = "overhead_localizer:
 ";
 
 fn build(more: &str) -> Result<Box<dyn NodeCore>, String> {
+    restart(more, None)
+}
+
+/// With what the last life left.
+fn restart(more: &str, checkpoint: Option<Vec<u8>>) -> Result<Box<dyn NodeCore>, String> {
     let text = format!("{PARAMETERS}{more}");
     let description = description();
     let sources = [Given::File { name: "localizer.yaml", text: &text }];
     let parameters = resolve(&sources, "/", description.name, &(description.parameters)())
         .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))?;
-    let context =
-        NodeContext { namespace: "/".to_owned(), name: description.name.to_owned(), ..NodeContext::default() };
+    let name = description.name.to_owned();
+    let context = NodeContext { namespace: "/".to_owned(), name, checkpoint, ..NodeContext::default() };
     (description.build)(&context, &parameters, &Shipped).map_err(|error| error.to_string())
+}
+
+/// Without start poses, on detections.
+fn nameless() -> Box<dyn NodeCore> {
+    let description = description();
+    let text = PARAMETERS.replace("initial_poses: [1.5, 1.2, -2.0, 0.5, 0.5, 0.8]", "input: detections");
+    let sources = [Given::File { name: "localizer.yaml", text: &text }];
+    let parameters = resolve(&sources, "/", description.name, &(description.parameters)()).unwrap();
+    (description.build)(&NodeContext::default(), &parameters, &Shipped).unwrap()
 }
 
 fn camera() -> Camera {
@@ -133,12 +151,12 @@ fn one_frame_gives_the_teams_state_odometry_and_transforms() {
         let children: Vec<&str> =
             transforms.iter().map(|each: &TransformStamped| each.child_frame_id.as_str()).collect();
         assert_eq!(children, ["robot1/base_link", "robot2/base_link"]);
-        let odometry: Odometry = outbox.last(4).unwrap();
+        let odometry: Odometry = outbox.last(5).unwrap();
         assert!((odometry.pose.pose.position.x - 1.5).abs() < 3e-4, "{odometry:?}");
         assert!(odometry.pose.covariance[0] > 0.0 && odometry.pose.covariance[35] > 0.0);
     }
     let topics: Vec<&str> = core.interface().publications.iter().map(|each| each.topic.as_str()).collect();
-    assert_eq!(topics, ["/team_state", "/tf", "/diagnostics", "/robot1/odom", "/robot2/odom"]);
+    assert_eq!(topics, ["/team_state", "/tf", "/diagnostics", "/markers", "/robot1/odom", "/robot2/odom"]);
 }
 
 #[test]
@@ -154,7 +172,10 @@ fn bad_frames_are_counted_reported_and_harmless() {
         assert!(outbox.actions.iter().any(logged), "{expected}: {:?}", outbox.actions);
         assert_eq!(outbox.published::<TeamState>(0), []);
     };
-    check(&Image { encoding: "yuv422".to_owned(), ..good(2) }.to_cdr(), "it must be rgb8 or bgr8");
+    check(
+        &Image { encoding: "mono8".to_owned(), ..good(2) }.to_cdr(),
+        "\"mono8\", it must be rgb8, bgr8 or yuv422_yuy2: pads",
+    );
     check(&Image { width: 640, ..good(2) }.to_cdr(), "[640, 576]");
     check(&Image { step: 100, ..good(2) }.to_cdr(), "a row of 768 pixels needs 2304");
     check(&Image { data: vec![0; 100], ..good(2) }.to_cdr(), "the frame has 100 bytes");
@@ -174,7 +195,10 @@ fn bad_frames_are_counted_reported_and_harmless() {
     let yellow = Image { data: [235, 205, 45].repeat(768 * 576), ..good(40) };
     let outbox = send(core.as_mut(), 40, &yellow.to_cdr());
     assert!(outbox.last::<TeamState>(0).unwrap().robots.iter().all(|robot| robot.status == RobotState::STATUS_LOST));
-    assert_eq!(outbox.last::<DiagnosticArray>(2).unwrap().status[1].message, "lost: robot1 robot2");
+    assert_eq!(
+        outbox.last::<DiagnosticArray>(2).unwrap().status[1].message,
+        "2 robots, 0 pads found; missing: robot1 robot2"
+    );
     // And then all is well again; the frame before the last comes too late.
     let state: TeamState = send(core.as_mut(), 41, &good(41).to_cdr()).last(0).unwrap();
     assert!(state.robots.iter().all(|robot| robot.status == RobotState::STATUS_TRACKED), "{state:?}");
@@ -182,9 +206,14 @@ fn bad_frames_are_counted_reported_and_harmless() {
 }
 
 fn detections(sequence: u64, change: impl Fn(&mut Vec<Disc>)) -> Vec<u8> {
+    detections_of(&START, sequence, change)
+}
+
+/// What a detector would find of robots.
+fn detections_of(robots: &[Pose2], sequence: u64, change: impl Fn(&mut Vec<Disc>)) -> Vec<u8> {
     let camera = camera();
     let mut discs = Vec::new();
-    for pose in START {
+    for &pose in robots {
         for (colour, place) in [Disc::COLOUR_YELLOW, Disc::COLOUR_BLUE].into_iter().zip(Pad::NOMINAL.discs(pose)) {
             let pixel = camera.project(nalgebra::Point3::new(place.x, place.y, Pad::NOMINAL.height)).unwrap();
             discs.push(Disc { colour, u: pixel.u, v: pixel.v, area: 346.0, confidence: 1.0 });
@@ -261,7 +290,11 @@ fn wrong_parameters_stop_the_node_before_it_works() {
         let error = (description.build)(&NodeContext::default(), &parameters, &Shipped).err().unwrap().to_string();
         assert!(error.starts_with(expected), "{error}");
     };
-    check("[robot2, robot1]", "[robot1, robot1]", "localizer.yaml:3: robots = ");
+    check(
+        "[robot2, robot1]",
+        "[robot1, robot1]",
+        "localizer.yaml:3: robots = [\"robot1\", \"robot1\"]: names two robots robot1",
+    );
     check(
         "1.5, 1.2,",
         "1.5,",

@@ -1,0 +1,137 @@
+//! From an incoming message to discs on the map.
+
+use crate::settings::{Input, Settings};
+use crate::track::MapDisc;
+use crate::vision::{Colour, Detector, Disc, Expectation, Frame, decode};
+use trench_config::{ConfigError, Parameters};
+use trench_core::{Qos, RosTime, Subscribe};
+use trench_msgs::builtin_interfaces::Time;
+use trench_msgs::msg::{Disc as DiscMessage, DiscArray};
+use trench_msgs::sensor_msgs::{CompressedImage, Image, ImageView};
+use trench_msgs::std_msgs::HeaderView;
+use trench_msgs::{Message, TypeInfo};
+use trench_optics::{Camera, Pixel};
+
+/// More discs than any detector finds pads for: such a message is broken.
+const MOST_DISCS: usize = 1024;
+
+/// Reads messages of the kind that the settings ask for.
+pub(crate) struct Intake {
+    camera: Camera,
+    pad_height: f64,
+    input: Input,
+    detector: Detector,
+    /// Pixels of frames that cannot be read in place.
+    room: Vec<u8>,
+    found: Vec<Disc>,
+}
+
+impl Intake {
+    /// # Errors
+    /// When the camera could not see any pad.
+    pub(crate) fn new(settings: &Settings, parameters: &Parameters) -> Result<Self, ConfigError> {
+        let (camera, pad) = (settings.camera.clone(), &settings.team.pad);
+        let expectation = Expectation::new(&camera, pad).ok_or_else(|| {
+            parameters.error("mount_file", "the camera does not see a pad below it", "measure it again")
+        })?;
+        let detector = Detector::new(&settings.colours, expectation);
+        let (pad_height, input) = (pad.height, settings.input);
+        Ok(Self { camera, pad_height, input, detector, room: Vec::new(), found: Vec::new() })
+    }
+
+    /// What it reads.
+    pub(crate) fn subscription(input: Input) -> Subscribe {
+        let read = |topic: &str, type_info: &'static TypeInfo| Subscribe {
+            topic: topic.to_owned(),
+            type_info,
+            qos: Qos::SENSOR,
+        };
+        match input {
+            Input::Image => read("/overhead/image_raw", Image::TYPE),
+            Input::Compressed => read("/overhead/image_raw/compressed", CompressedImage::TYPE),
+            Input::Detections => read("/overhead/detections", DiscArray::TYPE),
+        }
+    }
+
+    /// Puts the discs of a message into `discs`, unless `is_new` refuses its stamp; gives the stamp and what `is_new` said.
+    ///
+    /// # Errors
+    /// With the reason, when the message is not what it should be.
+    pub(crate) fn take(
+        &mut self,
+        cdr: &[u8],
+        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        discs: &mut Vec<MapDisc>,
+    ) -> Result<Option<(Time, f64)>, String> {
+        match self.input {
+            Input::Image => {
+                let image = ImageView::decode(cdr).map_err(|error| error.to_string())?;
+                self.frame(&image, is_new, discs)
+            }
+            Input::Compressed => {
+                let packed = CompressedImage::decode(cdr).map_err(|error| error.to_string())?;
+                let image = decode(&packed.data)?;
+                let (width, height) = image.dimensions();
+                let frame = ImageView {
+                    header: HeaderView { stamp: packed.header.stamp, frame_id: &packed.header.frame_id },
+                    height,
+                    width,
+                    encoding: "rgb8",
+                    is_bigendian: 0,
+                    step: 3 * width,
+                    data: image.as_raw(),
+                };
+                self.frame(&frame, is_new, discs)
+            }
+            Input::Detections => self.detections(cdr, is_new, discs),
+        }
+    }
+
+    fn size(&self) -> [usize; 2] {
+        let lens = self.camera.lens();
+        [lens.width as usize, lens.height as usize]
+    }
+
+    fn frame(
+        &mut self,
+        image: &ImageView<'_>,
+        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        discs: &mut Vec<MapDisc>,
+    ) -> Result<Option<(Time, f64)>, String> {
+        let (size, stamp) = ([image.width as usize, image.height as usize], image.header.stamp);
+        let frame = Frame::new(self.size(), image.encoding, size, image.step as usize, image.data, &mut self.room)
+            .map_err(|error| error.to_string())?;
+        let Some(interval) = is_new(RosTime::from(&stamp)) else { return Ok(None) };
+        self.detector.detect(frame, &mut self.found);
+        let seen = |disc: &Disc| MapDisc::seen(&self.camera, self.pad_height, disc.colour, disc.centre);
+        discs.clear();
+        discs.extend(self.found.iter().filter_map(seen));
+        Ok(Some((stamp, interval)))
+    }
+
+    /// Takes the discs that another detector found.
+    fn detections(
+        &self,
+        cdr: &[u8],
+        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        discs: &mut Vec<MapDisc>,
+    ) -> Result<Option<(Time, f64)>, String> {
+        let message = DiscArray::decode(cdr).map_err(|error| error.to_string())?;
+        if message.discs.len() > MOST_DISCS {
+            return Err(format!("more than {MOST_DISCS} discs"));
+        }
+        discs.clear();
+        for DiscMessage { colour, u, v, .. } in message.discs {
+            let colour = match colour {
+                DiscMessage::COLOUR_YELLOW => Colour::Yellow,
+                DiscMessage::COLOUR_BLUE => Colour::Blue,
+                other => return Err(format!("a disc has the colour {other}, it must be 0 or 1")),
+            };
+            if !(u.is_finite() && v.is_finite()) {
+                return Err("a disc's place is not finite".to_owned());
+            }
+            discs.extend(MapDisc::seen(&self.camera, self.pad_height, colour, Pixel { u, v }));
+        }
+        Ok(is_new(RosTime::from(&message.header.stamp)).map(|interval| (message.header.stamp, interval)))
+    }
+}

@@ -1,0 +1,96 @@
+//! Identities that a former life of the localizer knew, weighed against the start poses by what the camera sees.
+
+use super::filter::Filter;
+use super::identity::Hypotheses;
+use super::tracker::{Track, Tracker};
+use super::{MapDisc, wrap};
+use trench_optics::Pose2;
+
+/// A robot as it was last known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remembered {
+    /// Its name.
+    pub name: String,
+    /// Where it was.
+    pub pose: Pose2,
+    /// Its forward speed, m/s.
+    pub v: f64,
+    /// Its turning speed, rad/s.
+    pub omega: f64,
+    /// How long it had not been seen, s.
+    pub unseen: f64,
+    /// Whether it was in doubt which robot it is.
+    pub in_doubt: bool,
+}
+
+/// Without the localizer robots stop within this time, s (invariant 8); half of it at their speed is what is expected.
+const STOPPING: f64 = 0.25;
+/// What is not known of a speed when the news ended, m/s and rad/s.
+const SPEED: [f64; 2] = [0.05, 0.3];
+/// Afterwards they stand, unless somebody moves them: m/sqrt(s) and rad/sqrt(s).
+const MOVED: [f64; 2] = [0.03, 0.2];
+/// As the measurements that it was known by, and more, m and rad.
+const KNOWN: [f64; 2] = [0.002, 0.02];
+
+impl Remembered {
+    /// Where it is expected `age` (s) later, and how well that is known.
+    fn filter(&self, age: f64) -> Filter {
+        let coasting = 0.5 * STOPPING.min(age);
+        let (ahead, turned) = (self.v * coasting, self.omega * coasting);
+        let heading = self.pose.theta + 0.5 * turned;
+        let expected = Pose2 {
+            x: self.pose.x + ahead * libm::cos(heading),
+            y: self.pose.y + ahead * libm::sin(heading),
+            theta: wrap(self.pose.theta + turned),
+        };
+        let doubt = |axis: usize, speed: f64| {
+            let stopping = (speed.abs() + SPEED[axis]) * coasting;
+            let moved = MOVED[axis] * libm::sqrt(age + self.unseen);
+            libm::sqrt(KNOWN[axis] * KNOWN[axis] + stopping * stopping + moved * moved)
+        };
+        let place = doubt(0, self.v);
+        Filter::new(expected, [place, place, doubt(1, self.omega)])
+    }
+}
+
+impl Tracker {
+    /// Tells a tracker that has seen nothing yet where robots were `age` (s) before its first frame. The first frame with a
+    /// pad decides between that and the start poses; robots that fit both alike under different names are in doubt.
+    pub fn recall(&mut self, last: &[Remembered], age: f64) {
+        let remember = |track: &Track| match last.iter().find(|robot| robot.name == track.name) {
+            Some(robot) => Track {
+                filter: Some(robot.filter(age)),
+                unseen: robot.unseen + age,
+                in_doubt: robot.in_doubt,
+                ..track.clone()
+            },
+            None => track.clone(),
+        };
+        self.remembered = Some(self.tracks.iter().map(remember).collect());
+    }
+
+    /// Decides, as soon as there is something to decide by.
+    pub(super) fn choose(&mut self, discs: &[MapDisc]) {
+        let Some(remembered) = self.remembered.take() else { return };
+        let from_start = std::mem::replace(&mut self.tracks, remembered);
+        let pads = self.seen(discs);
+        let recalled = Hypotheses::new(&self.tracks, &pads, &self.measurement);
+        let at_start = Hypotheses::new(&from_start, &pads, &self.measurement);
+        if pads.is_empty() {
+            self.remembered = Some(std::mem::replace(&mut self.tracks, from_start));
+            return;
+        }
+        if from_start.iter().all(|track| track.filter.is_none()) {
+            return;
+        }
+        let (now, then) = (recalled.best(), at_start.best());
+        let gained = at_start.worth(&then) - recalled.worth(&now);
+        if gained.abs() < Hypotheses::MARGIN {
+            for (track, differs) in self.tracks.iter_mut().zip(now.iter().zip(&then).map(|(a, b)| a != b)) {
+                track.in_doubt |= differs;
+            }
+        } else if gained > 0.0 {
+            self.tracks = from_start;
+        }
+    }
+}
