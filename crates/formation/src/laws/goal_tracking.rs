@@ -68,6 +68,6 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
 
 /// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
 pub(super) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
-    let distance = libm::hypot(offset.x, offset.y);
+    let distance = offset.norm();
     if distance == 0.0 { Vector2::zeros() } else { offset * (trench.slope(distance) / distance) }
 }

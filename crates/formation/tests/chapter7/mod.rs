@@ -1,4 +1,6 @@
 //! The chain of 7.10.
+mod scenarios;
+
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape};
 use trench_formation::hull::{Obstacle, Shape};

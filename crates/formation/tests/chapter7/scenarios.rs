@@ -1,0 +1,58 @@
+//! Scenarios besides 7.10.
+use super::chain_of_7_10;
+use trench_formation::Vector2;
+use trench_formation::curve::{Curve, CurveShape};
+use trench_formation::simulate::{Carriage, ChainScenario, ChainSimulation, Encroaching};
+use trench_formation::trench::Hyperbolic;
+
+fn at(x: f64, y: f64) -> Vector2<f64> {
+    Vector2::new(x, y)
+}
+
+/// A segment that moves and turns is followed: the chain leader's goal point exactly, by feedforward.
+#[test]
+fn a_segment_under_way() {
+    let segment = Curve::new(&CurveShape::Line(at(-20.0, 0.0), at(0.0, 0.0)), false, false).unwrap();
+    let carriage = Carriage { origin: at(30.0, 30.0), heading: 0.8, velocity: at(0.5, 0.3), turn_rate: 0.02 };
+    let mut simulation = ChainSimulation::new(ChainScenario {
+        segment,
+        carriage,
+        team_goal: Some(at(0.0, 0.0)),
+        robots: chain_of_7_10(5.0).robots[..3].to_vec(),
+        obstacles: Vec::new(),
+        encroaching: Encroaching::Nothing,
+        ..chain_of_7_10(5.0)
+    })
+    .unwrap();
+    (0..100_000).for_each(|_| simulation.step().unwrap());
+    let deviations = simulation.deviations();
+    assert!(deviations[0] < 2e-3, "{deviations:?}");
+    assert!(deviations.iter().all(|deviation| *deviation < 0.05), "{deviations:?}");
+    let distances = simulation.robots().windows(2).map(|pair| (pair[0].position - pair[1].position).norm());
+    assert!(distances.clone().all(|distance| (4.0..10.0).contains(&distance)), "{:?}", distances.collect::<Vec<_>>());
+}
+
+fn check(change: impl Fn(&mut ChainScenario<Hyperbolic>), expected: &str) {
+    let mut scenario = chain_of_7_10(5.0);
+    change(&mut scenario);
+    let text = ChainSimulation::new(scenario).map(|_| ()).map_err(|error| error.to_string());
+    assert!(text.clone().is_err_and(|text| text.contains(expected)), "{text:?}");
+}
+
+#[test]
+fn refused_scenarios() {
+    check(|scenario| scenario.robots.clear(), "no robots");
+    check(|scenario| scenario.robots[3].position.x = f64::NAN, "r4 is not finite");
+    check(|scenario| scenario.robots[4].position = scenario.robots[2].position, "r3 and r5 start 0 m apart");
+    check(|scenario| scenario.step = 0.0, "step is 0 s");
+    check(|scenario| scenario.steps_per_tick = 0, "steps_per_tick is 0");
+    check(|scenario| scenario.team_goal = Some(at(f64::INFINITY, 0.0)), "the team goal is not finite");
+    check(|scenario| scenario.seeking.settled_speed = 0.0, "settled_speed is 0; it must be finite and positive");
+    check(|scenario| scenario.carriage.heading = f64::NAN, "motion of the segment");
+    check(|scenario| scenario.obstacles[1].id = 0, "two obstacles have the id 0");
+    let trapped = |scenario: &mut ChainScenario<Hyperbolic>| {
+        scenario.clearance = 100.0;
+        scenario.robots[0].position = at(60.0, 60.0);
+    };
+    check(trapped, "r1 starts inside apparent obstacle 0");
+}
