@@ -181,7 +181,7 @@ pub(crate) fn check_gains(parameters: &Parameters) -> Result<(), ConfigError> {
     let Err(violation) = StableZone::check(Robust { k1, k2, k3 }) else { return Ok(()) };
     let key = format!("gains.{}", violation.gain().to_lowercase());
     let remedy = match violation.nearest() {
-        Some(gain) => format!("write {gain}, or set refuse_unstable_gains to false to be warned only"),
+        Some(gain) => format!("write {gain:.4}, or set refuse_unstable_gains to false to be warned only"),
         None => "write a finite number".to_owned(),
     };
     Err(parameters.error(&key, violation.to_string(), remedy))
