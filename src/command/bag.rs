@@ -7,6 +7,7 @@ use trench_bag::run::{Run, SummaryOptions, summary};
 use trench_bag::{BagError, BagMessage, BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::Qos;
 
+mod check;
 mod info;
 mod record;
 
@@ -41,6 +42,8 @@ enum Action {
         #[arg(long, value_names = ["FROM", "TO"], num_args = 2)]
         interval: Vec<f64>,
     },
+    /// Replays journals through the node cores and compares every output: the regression test of recorded runs.
+    Check(check::Check),
     /// Copies all intact messages of a damaged or unfinished bag into a new one and says what is lost.
     Recover {
         /// A bag's folder or an .mcap file.
@@ -57,6 +60,7 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
             eprintln!("trench bag: {}", record.run());
             return ExitCode::FAILURE;
         }
+        Action::Check(check) => return check.run(),
         Action::Info { bag } => BagReader::open(bag).map(|bag| print!("{}", info::Info(&bag))),
         Action::Analyze { bag, json, at, interval } => analyze(bag, *json, at, interval),
         Action::Recover { bag, out } => recover(bag, out),

@@ -11,7 +11,8 @@ use std::time::Instant;
 use trench_bag::run::{RunBuilder, SummaryOptions, summary};
 use trench_bag::{BagError, BagWriter, Stamp, TopicId, TopicType, WriteOptions};
 use trench_core::{Advertise, Level, Source, Times};
-use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load, plan};
+use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load_journalled, plan};
+use trench_journal::{Journals, Pace};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -41,6 +42,12 @@ pub(crate) struct Arguments {
     /// Records all messages into a bag in this folder, which must not exist.
     #[arg(long, value_name = "FOLDER")]
     bag: Option<PathBuf>,
+    /// Keeps a journal of every node in this folder, which must not exist, for trench bag check.
+    #[arg(long, value_name = "FOLDER")]
+    journal: Option<PathBuf>,
+    /// Keeps the camera images that nodes read in their journals too (1.3 MB each).
+    #[arg(long, requires = "journal")]
+    journal_images: bool,
     /// Writes where each robot was and should have been into this file (CSV).
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -62,6 +69,8 @@ enum SimError {
     Bus(#[from] BusError),
     #[error(transparent)]
     Bag(#[from] BagError),
+    #[error("{0} exists already; give the journals another folder or remove it")]
+    JournalsExist(String),
     #[error("{path}: {error}", path = path.display())]
     Write { path: PathBuf, error: std::io::Error },
 }
@@ -79,7 +88,12 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 
 fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     let plan = plan(&arguments.file, &arguments.arguments.iter().cloned().collect())?;
-    let loaded = load(&plan, &Disk, arguments.seed)?;
+    if let Some(folder) = arguments.journal.as_ref().filter(|folder| folder.exists()) {
+        return Err(SimError::JournalsExist(folder.display().to_string()));
+    }
+    let folder = arguments.journal.clone();
+    let journals = folder.map(|folder| Journals { folder, images: arguments.journal_images, pace: Pace::LockStep });
+    let loaded = load_journalled(&plan, &Disk, arguments.seed, journals.as_ref())?;
     for label in &loaded.left_out {
         eprintln!("trench sim: {label} is no node of ours and is left out");
     }

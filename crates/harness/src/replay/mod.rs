@@ -7,4 +7,4 @@ mod subject;
 mod text;
 
 pub use difference::{Change, Changes, Difference, Pair};
-pub use rerun::{ReplayError, Report, Verdict, replay, replay_from, update};
+pub use rerun::{ReplayError, Report, Verdict, move_over, replay, replay_from, update};

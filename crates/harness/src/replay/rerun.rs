@@ -146,6 +146,14 @@ pub fn update(journal: &JournalReader, to: &Path) -> Result<(), ReplayError> {
     Ok(written.finish()?)
 }
 
+/// Puts a journal that [`update`] wrote into the place of the old one.
+///
+/// # Errors
+/// When the file system refuses.
+pub fn move_over(new: &Path, old: &Path) -> Result<(), ReplayError> {
+    std::fs::rename(new, old).map_err(|source| JournalError::Io { path: old.to_owned(), source }.into())
+}
+
 fn described(start: &Start) -> Result<NodeDescription, ReplayError> {
     let unknown = || ReplayError::Unknown { node: start.full_name(), description: start.description.clone() };
     catalog::node(&start.description).ok_or_else(unknown)

@@ -1,0 +1,121 @@
+//! `trench bag check`: feeds journals to the cores they are of and compares.
+
+mod find;
+mod show;
+
+use clap::Args;
+use find::FindError;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+use trench_harness::replay::{self, ReplayError, Report, Verdict};
+use trench_journal::JournalReader;
+
+/// The exit code when an output differs.
+const DIFFERS: u8 = 1;
+/// The exit code when a journal could not be followed to its end.
+const UNREADABLE: u8 = 2;
+
+/// What to check.
+#[derive(Args)]
+#[command(after_help = "\
+Exit codes:
+  0   every output of every node is the same, bit for bit
+  1   an output differs: a change of behaviour
+  2   a journal cannot be read, or not to its end")]
+pub(super) struct Check {
+    /// A folder of journals, one journal, or a bag with a folder `journals` in it or beside it.
+    path: PathBuf,
+    /// Checks this node alone: its full name, or the last part of it.
+    #[arg(long, value_name = "NAME")]
+    node: Option<String>,
+    /// Prints JSON instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Writes what differs anew with the outputs of today: after an intended change of behaviour.
+    #[arg(long)]
+    update: bool,
+}
+
+/// A journal and what came of it.
+struct Checked {
+    path: PathBuf,
+    result: Result<Report, ReplayError>,
+    is_updated: bool,
+}
+
+impl Check {
+    /// Checks, prints and gives the exit code.
+    pub(super) fn run(&self) -> ExitCode {
+        let began = Instant::now();
+        let checked = match find::journals(&self.path).and_then(|paths| self.check(paths)) {
+            Ok(checked) => checked,
+            Err(error) => {
+                eprintln!("trench bag check: {error}");
+                return UNREADABLE.into();
+            }
+        };
+        if self.json {
+            println!("{:#}", show::json(&checked));
+        } else {
+            print!("{}", show::Table { checked: &checked, took: began.elapsed().as_secs_f64() });
+        }
+        checked.iter().map(Checked::exit_code).max().unwrap_or(UNREADABLE).into()
+    }
+
+    /// Checks the journals of the nodes asked for, as many at a time as there are processors.
+    fn check(&self, paths: Vec<PathBuf>) -> Result<Vec<Checked>, FindError> {
+        let paths = match &self.node {
+            Some(name) => find::of_node(paths, name)?,
+            None => paths,
+        };
+        let next = AtomicUsize::new(0);
+        let checked = Mutex::new(Vec::new());
+        let work = || {
+            while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let one = check(path, self.update);
+                checked.lock().unwrap_or_else(PoisonError::into_inner).push(one);
+            }
+        };
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        std::thread::scope(|scope| (0..processors.min(paths.len())).for_each(|_| drop(scope.spawn(work))));
+        let mut checked = checked.into_inner().unwrap_or_else(PoisonError::into_inner);
+        checked.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(checked)
+    }
+}
+
+fn check(path: &Path, update: bool) -> Checked {
+    let path = path.to_owned();
+    let journal = match JournalReader::open(&path) {
+        Ok(journal) => journal,
+        Err(error) => return Checked { path, result: Err(error.into()), is_updated: false },
+    };
+    let result = replay::replay(&journal);
+    let differs = matches!(&result, Ok(Report { verdict: Verdict::Differs(_), .. }));
+    if !(differs && update) {
+        return Checked { path, result, is_updated: false };
+    }
+    let partial = path.with_extension("mcap.partial");
+    let renewed = replay::update(&journal, &partial).and_then(|()| replay::move_over(&partial, &path));
+    match renewed {
+        Ok(()) => Checked { path, result, is_updated: true },
+        Err(error) => {
+            let _leftover = std::fs::remove_file(&partial);
+            Checked { path, result: Err(error), is_updated: false }
+        }
+    }
+}
+
+impl Checked {
+    fn exit_code(&self) -> u8 {
+        match &self.result {
+            Ok(Report { verdict: Verdict::Equal, .. }) => 0,
+            Ok(Report { verdict: Verdict::Differs(_), .. }) if self.is_updated => 0,
+            Ok(Report { verdict: Verdict::Differs(_), .. }) => DIFFERS,
+            Ok(Report { verdict: Verdict::NotReplayable { .. }, .. }) | Err(_) => UNREADABLE,
+        }
+    }
+}
