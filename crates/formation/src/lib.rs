@@ -2,7 +2,7 @@
 //!
 //! Chapters: [`kinematics`] and [`laws`] 3 and 4, [`stability`] 4.3 and 8, [`curve`] 2.1 and 7.2, [`trench`] 5,
 //! [`zoning`] 6, [`hull`] 7.4, [`seek`] 7.5,
-//! [`avoidance`] 7.6 and 7.7, [`assignment`] and [`chain`] 2.1, 6.2.1, [`safety`] DESIGN invariant 8;
+//! [`avoidance`] 7.6 and 7.7, [`assignment`] and [`chain`] 2.1, 6.2.1, [`safety`] docs/ARCHITECTURE.md;
 //! [`simulate`] runs the dynamic laws in lock-step.
 //!
 //! Units are SI, angles radians, frames `map` unless a name says otherwise.

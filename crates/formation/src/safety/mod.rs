@@ -1,4 +1,4 @@
-//! The safety filter that ends every law (DESIGN invariant 8).
+//! The safety filter that ends every law (docs/ARCHITECTURE.md, "safe by default").
 //!
 //! [`SafetyFilter::apply`] is a pure function of one robot's surroundings. It passes a twist on bit for bit unless the
 //! twist breaks the rule or the straight way to the goal is blocked; then it heads for the way round and limits the

@@ -1,11 +1,11 @@
 //! Stepping a chain.
-use super::remedy::{Drawn, Remedy};
+use super::remedy::{Asked, Drawn, Remedy, Surroundings};
 use super::{ChainScenario, Encroaching, ScenarioError};
 use crate::Vector2;
 use crate::curve::{Interval, Placed};
-use crate::hull::{ApparentObstacle, Outline, combine};
+use crate::hull::{ApparentObstacle, Obstacle, Outline, combine};
 use crate::kinematics::PointState;
-use crate::laws::{Attracting, Push, RigidMotion, Steered};
+use crate::laws::{Attracting, GoalMotion, Push, RigidMotion, Steered};
 use crate::seek::{Fragments, LeaderView, Seeker, Sought, apparent_obstacles};
 use crate::trench::Trench;
 use nalgebra::Isometry2;
@@ -38,8 +38,8 @@ impl<T: Trench> ChainSimulation<T> {
         scenario.check()?;
         let obstacles = combine(&scenario.obstacles, scenario.clearance)?;
         for (index, robot) in scenario.robots.iter().enumerate() {
-            let inside = |obstacle: &&ApparentObstacle| obstacle.shape.outline().approach(robot.position).gap < 0.0;
-            if let Some(obstacle) = obstacles.iter().find(inside) {
+            let inside = |obstacle: &&Obstacle| obstacle.shape.outline().approach(robot.position).gap < 0.0;
+            if let Some(obstacle) = scenario.obstacles.iter().find(inside) {
                 return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id));
             }
         }
@@ -89,24 +89,27 @@ impl<T: Trench> ChainSimulation<T> {
         Ok(())
     }
 
-    /// What draws a robot; updates its remedy.
+    /// What draws a robot: its goal or nearest point, unless a remedy asks for something else.
     fn attract(&mut self, index: usize) -> Attracting {
         let (map_from_segment, motion) = self.frame;
-        if let Some(goal) = self.scenario.team_goal.filter(|_| index == 0) {
-            let foot = motion.at(map_from_segment.transform_point(&goal.into()).coords);
-            self.deviations[index] = (foot.position - self.robots[index].position).norm();
-            self.remedy(index, Drawn::Goal(foot.position));
-            return Attracting { foot, draws: true };
-        }
-        match self.seek(index) {
-            Sought::Point(foot) => {
-                self.remedy(index, Drawn::To(foot));
-                self.deviations[index] = foot.distance;
-                Attracting { foot: motion.at(foot.point), draws: true }
-            }
-            Sought::Tie | Sought::NoFragment => {
-                Attracting { foot: motion.at(self.robots[index].position), draws: false }
-            }
+        let robot = self.robots[index].position;
+        let goal = self.scenario.team_goal.filter(|_| index == 0);
+        let drawn = match goal.map(|goal| map_from_segment.transform_point(&goal.into()).coords) {
+            Some(goal) => Drawn::Goal(goal),
+            None => match self.seek(index) {
+                Sought::Point(foot) => Drawn::To(foot),
+                Sought::Tie | Sought::NoFragment => return Attracting { foot: motion.at(robot), draws: false },
+            },
+        };
+        let target = match drawn {
+            Drawn::Goal(goal) => goal,
+            Drawn::To(foot) => foot.point,
+        };
+        self.deviations[index] = (target - robot).norm();
+        match self.remedy(index, drawn) {
+            Asked::Attraction => Attracting { foot: motion.at(target), draws: true },
+            Asked::Suspension => Attracting { foot: motion.at(robot), draws: false },
+            Asked::Point(point) => Attracting { foot: GoalMotion::at_rest(point), draws: true },
         }
     }
 
@@ -120,23 +123,26 @@ impl<T: Trench> ChainSimulation<T> {
             }
         });
         let obstacles = self.obstacles.iter().enumerate().map(|(other, obstacle)| {
-            let approach = self.remedies[index].approach(other, obstacle, robot.position);
+            let approach = self.remedies[index].approach((other, obstacle), &scenario.obstacles, robot.position);
             Push::of_obstacle(&scenario.potential, approach)
         });
         let leader_velocity = index.checked_sub(1).map(|leader| self.seen[leader].velocity);
         scenario.law.steer(robot, attracting, leader_velocity, ahead.chain(obstacles))
     }
 
-    fn remedy(&mut self, index: usize, drawn: Drawn) {
-        let Some(remedies) = &self.scenario.remedies else { return };
-        let segment = Placed::new(&self.scenario.segment, self.frame.0);
-        self.remedies[index].update(
+    fn remedy(&mut self, index: usize, drawn: Drawn) -> Asked {
+        let scenario = &self.scenario;
+        let Some(remedies) = &scenario.remedies else { return Asked::Attraction };
+        let around = Surroundings {
             remedies,
-            (self.steps as f64 * self.scenario.step, self.scenario.step),
-            self.robots[index].position,
-            (&segment, drawn),
-            (&self.obstacles, self.scenario.potential.cut()),
-        );
+            time: self.steps as f64 * scenario.step,
+            step: scenario.step,
+            segment: Placed::new(&scenario.segment, self.frame.0),
+            real: &scenario.obstacles,
+            apparent: &self.obstacles,
+            potential: &scenario.potential,
+        };
+        self.remedies[index].update(&around, self.robots[index].position, drawn)
     }
 
     fn seek(&mut self, index: usize) -> Sought {

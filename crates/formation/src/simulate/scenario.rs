@@ -59,7 +59,7 @@ pub enum Encroaching {
 pub struct Remedies {
     /// When a robot counts as caught.
     pub watch: WatchSettings,
-    /// How fast a guard rises to its place, m/s.
+    /// How fast a guard rises to its place, and how fast robots are led out of hulls, m/s.
     pub rising: f64,
 }
 
@@ -75,8 +75,8 @@ pub enum ScenarioError {
     /// Two robots that touch at the start.
     #[error("r{0} and r{1} start {2} m apart, within zone 1 of each other: move one of them")]
     StartInZoneOne(usize, usize, f64),
-    /// A robot that starts in an obstacle.
-    #[error("r{0} starts inside apparent obstacle {1}: move one of them")]
+    /// A robot that starts in an obstacle (to start in the hull of several is permitted).
+    #[error("r{0} starts inside obstacle {1}: move one of them")]
     StartInObstacle(usize, u32),
     /// A goal, pose or velocity of the segment that is NaN or infinite.
     #[error("{0} is not finite: give numbers in SI units")]

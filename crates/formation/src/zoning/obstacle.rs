@@ -66,6 +66,11 @@ impl ObstaclePotential {
         self.cut
     }
 
+    /// Gap that keeps well off the pole, a quarter of the way to the cut, m: where ways past obstacles are laid.
+    pub fn pole_with_margin(&self) -> f64 {
+        self.pole + 0.25 * (self.cut - self.pole)
+    }
+
     /// Psi_hat'(gap) <= 0, m/s^2.
     pub fn force(&self, gap: f64) -> f64 {
         -self.barrier.slope(gap - self.pole)

@@ -1,9 +1,13 @@
 //! Scenarios besides 7.10.
 use super::chain_of_7_10;
 use trench_formation::Vector2;
+use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{Curve, CurveShape};
-use trench_formation::simulate::{Carriage, ChainScenario, ChainSimulation, Encroaching};
+use trench_formation::hull::{Obstacle, Shape};
+use trench_formation::kinematics::PointState;
+use trench_formation::simulate::{Carriage, ChainScenario, ChainSimulation, Encroaching, Remedies};
 use trench_formation::trench::Hyperbolic;
+use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness};
 
 fn at(x: f64, y: f64) -> Vector2<f64> {
     Vector2::new(x, y)
@@ -51,8 +55,40 @@ fn refused_scenarios() {
     check(|scenario| scenario.carriage.heading = f64::NAN, "motion of the segment");
     check(|scenario| scenario.obstacles[1].id = 0, "two obstacles have the id 0");
     let trapped = |scenario: &mut ChainScenario<Hyperbolic>| {
-        scenario.clearance = 100.0;
-        scenario.robots[0].position = at(60.0, 60.0);
+        scenario.obstacles[2].shape = Shape::new(&[at(26.0, 29.0)], 1.0).unwrap();
     };
-    check(trapped, "r1 starts inside apparent obstacle 0");
+    check(trapped, "r1 starts inside obstacle 2");
+}
+
+/// 7.7: a bay of three walls, combined; the robot in it is led out by the mouth, round the walls, to the segment behind them.
+#[test]
+fn out_of_a_bay() {
+    let wall = |id, from, to| Obstacle { id, shape: Shape::new(&[from, to], 0.0).unwrap() };
+    let obstacles = vec![
+        wall(1, at(0.0, 0.0), at(0.0, 4.0)),
+        wall(2, at(0.0, 0.0), at(6.0, 0.0)),
+        wall(3, at(0.0, 4.0), at(6.0, 4.0)),
+    ];
+    let scenario = |remedies| ChainScenario {
+        segment: Curve::new(&CurveShape::Line(at(-20.0, -3.0), at(20.0, -3.0)), false, false).unwrap(),
+        team_goal: None,
+        robots: vec![PointState::at_rest(at(1.0, 1.5))],
+        obstacles: obstacles.clone(),
+        clearance: 5.0,
+        potential: ObstaclePotential::new(0.0, 1.0, 10.0, Sharpness::Two, Edge::Continuous, 1e4).unwrap(),
+        encroaching: Encroaching::Obstacles,
+        remedies,
+        ..chain_of_7_10(5.0)
+    };
+    let watch = WatchSettings { radius: 0.1, patience: 1.0, arrived: 0.05 };
+    let mut simulation = ChainSimulation::new(scenario(Some(Remedies { watch, rising: 0.5 }))).unwrap();
+    assert_eq!(simulation.obstacles().len(), 1);
+    let mut least = f64::INFINITY;
+    for _ in 0..60_000 {
+        simulation.step().unwrap();
+        let gap = |obstacle: &Obstacle| obstacle.shape.outline().approach(simulation.robots()[0].position).gap;
+        least = obstacles.iter().map(gap).fold(least, f64::min);
+    }
+    assert!(simulation.deviations()[0] < 1e-6, "{:?}", simulation.robots());
+    assert!(simulation.robots()[0].position.x > 6.0 && least > 0.3, "{least} {:?}", simulation.robots());
 }
