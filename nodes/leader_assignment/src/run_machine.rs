@@ -1,4 +1,4 @@
-//! The run state: changed by the services alone, and by faults towards STOPPED.
+//! The run state: changed by the services alone. A robot that is lost rests by itself, the others go on.
 
 use trench_core::RosTime;
 use trench_msgs::msg::RunState;
@@ -81,11 +81,6 @@ impl RunMachine {
         };
         self.enter(state, reason);
         Ok(self.reason.clone())
-    }
-
-    /// Stops the run for a reason other than the operator's wish.
-    pub fn fault(&mut self, reason: &str) {
-        self.enter(RunState::STOPPED, reason);
     }
 
     /// Tells that all robots are localised at `stamp`; sets t0 the first time while running. Gives whether it was set.
