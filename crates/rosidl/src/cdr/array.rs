@@ -13,14 +13,10 @@ impl<'a, T: ReadCdr<'a> + Default, const N: usize> ReadCdr<'a> for [T; N] {
 
     fn read(reader: &mut Reader<'a>, field: &'static str) -> Result<Self, CdrError> {
         reader.require(Self::SMALLEST, field)?;
-        let mut failure = None;
-        let array = std::array::from_fn(|_| match failure {
-            None => T::read(reader, field).unwrap_or_else(|error| {
-                failure = Some(error);
-                T::default()
-            }),
-            Some(_) => T::default(),
-        });
-        failure.map_or(Ok(array), Err)
+        let mut array = std::array::from_fn(|_| T::default());
+        for element in &mut array {
+            *element = T::read(reader, field)?;
+        }
+        Ok(array)
     }
 }

@@ -5,15 +5,30 @@ use super::{CdrError, Output, ReadCdr, Reader, WriteCdr};
 macro_rules! number {
     ($type:ty) => {
         impl WriteCdr for $type {
+            #[inline]
             fn write(&self, out: &mut impl Output) {
                 out.align(size_of::<Self>());
                 out.put(&self.to_le_bytes());
+            }
+
+            /// The first one aligns all.
+            fn write_many(values: &[Self], out: &mut impl Output) {
+                if values.is_empty() {
+                    return;
+                }
+                out.align(size_of::<Self>());
+                out.put_with(size_of_val(values), |space| {
+                    for (place, value) in space.chunks_exact_mut(size_of::<Self>()).zip(values) {
+                        place.copy_from_slice(&value.to_le_bytes());
+                    }
+                });
             }
         }
 
         impl<'a> ReadCdr<'a> for $type {
             const SMALLEST: usize = size_of::<Self>();
 
+            #[inline]
             fn read(reader: &mut Reader<'a>, field: &'static str) -> Result<Self, CdrError> {
                 let bytes = reader.take_aligned(field)?;
                 Ok(if reader.big_endian() { Self::from_be_bytes(bytes) } else { Self::from_le_bytes(bytes) })

@@ -21,8 +21,14 @@ pub trait Output {
     /// Adds zeros up to a multiple of `alignment`, a power of two.
     fn align(&mut self, alignment: usize);
 
+    /// Adds `count` bytes that `fill` writes.
+    fn put_with(&mut self, count: usize, fill: impl FnOnce(&mut [u8]));
+
     /// Adds bytes.
-    fn put(&mut self, bytes: &[u8]);
+    #[inline]
+    fn put(&mut self, bytes: &[u8]) {
+        self.put_with(bytes.len(), |space| space.copy_from_slice(bytes));
+    }
 }
 
 /// Counts.
@@ -44,8 +50,8 @@ impl Output for Counter {
     }
 
     #[inline]
-    fn put(&mut self, bytes: &[u8]) {
-        self.position += bytes.len();
+    fn put_with(&mut self, count: usize, _: impl FnOnce(&mut [u8])) {
+        self.position += count;
     }
 }
 
@@ -87,9 +93,9 @@ impl Output for Writer<'_> {
     }
 
     #[inline]
-    fn put(&mut self, bytes: &[u8]) {
-        if let Some(space) = self.next(bytes.len()) {
-            space.copy_from_slice(bytes);
+    fn put_with(&mut self, count: usize, fill: impl FnOnce(&mut [u8])) {
+        if let Some(space) = self.next(count) {
+            fill(space);
         }
     }
 }
