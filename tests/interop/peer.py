@@ -1,19 +1,21 @@
 """What the peers share: a node, a time limit, types by name, messages as JSON.
 
-Every peer prints one JSON document on standard output and ends with 0, or says on standard error why it could not and
-ends with 1. ROS_DOMAIN_ID and the variables of `scripts/ros-venv --env` must be set.
+Every peer prints JSON, one document a line, on standard output and ends with 0, or says on standard error why it could
+not and ends with 1. ROS_DOMAIN_ID and the variables of `scripts/ros-venv --env` must be set.
 """
 
 import argparse
 import importlib
 import json
 import math
+import re
 import sys
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
 
 import rclpy
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 
@@ -27,16 +29,18 @@ def parser(description: str) -> argparse.ArgumentParser:
 
 @contextmanager
 def node(name: str):
-    """A node for the time of a `with` block."""
+    """A node for the time of a `with` block, which SIGINT and SIGTERM end quietly."""
     rclpy.init()
     try:
         created = Node(name, enable_rosout=False, start_parameter_services=False)
         try:
             yield created
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
         finally:
             created.destroy_node()
     finally:
-        rclpy.shutdown()
+        rclpy.try_shutdown()
 
 
 def spin_until(spun: Node, done: Callable[[], bool], timeout: float) -> bool:
@@ -74,6 +78,20 @@ def plain(value):
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)  # JSON has no word for it
     return value
+
+
+def fill(message, document: dict):
+    """Sets the fields of a message to the values of a JSON document; what the document leaves out stays as it is."""
+    types = message.get_fields_and_field_types()
+    for name, value in document.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            package, element = re.split(r"[<>\[\]]", types[name].removeprefix("sequence<"))[0].split("/")
+            setattr(message, name, [fill(message_type(f"{package}/msg/{element}")(), one) for one in value])
+        else:
+            setattr(message, name, value)
+    return message
 
 
 def report(document) -> None:

@@ -27,7 +27,7 @@ check '"successful": true' peer_param.py /robot1/peer_robot set gains.k1 0.2
 check '"value": 0.2' peer_param.py /robot1/peer_robot get gains.k1
 check '"gains.k1"' peer_param.py /robot1/peer_robot list
 check '"message": "armed"' peer_service.py /robot1/peer_robot/arm
-check '"published": 3' peer_publish.py /emergency_stop true --count 3
+echo '{"data": true}' | check '"published": ' peer_publish.py /emergency_stop std_msgs/msg/Bool
 wait "$robot"
 trap - EXIT
 echo "ok: peer_robot.py stopped"

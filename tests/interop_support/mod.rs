@@ -1,0 +1,17 @@
+//! Real processes of both sides for the interop tests: our stack under `trench launch`, and rclpy programs.
+
+pub(crate) mod graph;
+mod island;
+mod launch;
+mod peer;
+mod team;
+
+pub(crate) use island::Island;
+pub(crate) use launch::Launch;
+pub(crate) use peer::{Follower, Publisher};
+pub(crate) use team::{Moment, number, stamp};
+
+use std::time::Duration;
+
+/// How long a condition may take to come true on a busy machine before a test fails.
+pub(crate) const PATIENCE: Duration = Duration::from_secs(40);
