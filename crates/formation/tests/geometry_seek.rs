@@ -1,5 +1,5 @@
 //! Nearest points on fragments, and the seeking algorithm of 7.5.2.
-#![expect(clippy::unwrap_used, reason = "a test may fail by a panic in a function of its own")]
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test may fail by a panic in a function of its own")]
 use core::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;

@@ -1,5 +1,4 @@
 //! Chapter 7: the energy arguments of A.16 and A.18.
-#![expect(clippy::unwrap_used, reason = "a test may fail by a panic in a function of its own")]
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
 use trench_formation::curve::{Curve, CurveShape, Placed};

@@ -124,13 +124,14 @@ impl Curve {
 
     /// Feet on the tangents beyond open ends, with their distances.
     fn extensions(&self, point: Vector2<f64>) -> impl Iterator<Item = (f64, Place)> {
-        let (first, last) = (self.at_end(false), self.at_end(true));
-        let before = (first.0 - point).dot(&first.1);
-        let after = (point - last.0).dot(&last.1);
-        let start = (self.open_start && before > 0.0)
-            .then(|| ((first.0 - before * first.1 - point).norm(), Place::Before(before)));
-        let end =
-            (self.open_end && after > 0.0).then(|| ((last.0 + after * last.1 - point).norm(), Place::After(after)));
+        let start = self.open_start.then(|| self.at_end(false)).and_then(|(first, tangent)| {
+            let before = (first - point).dot(&tangent);
+            (before > 0.0).then(|| ((first - before * tangent - point).norm(), Place::Before(before)))
+        });
+        let end = self.open_end.then(|| self.at_end(true)).and_then(|(last, tangent)| {
+            let after = (point - last).dot(&tangent);
+            (after > 0.0).then(|| ((last + after * tangent - point).norm(), Place::After(after)))
+        });
         start.into_iter().chain(end)
     }
 

@@ -58,18 +58,31 @@ pub fn combine(obstacles: &[Obstacle], clearance: f64) -> Result<Vec<ApparentObs
     Ok(groups.into_iter().map(named).collect())
 }
 
+/// Box of a group: apart from the groups, so that the sweep over all pairs reads little memory.
+struct Slot {
+    low: [f64; 2],
+    high: [f64; 2],
+    fresh: bool,
+}
+
 /// Joins all groups that are near each other now; whether there were any.
 fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) -> bool {
-    groups.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+    groups.sort_unstable_by(|a, b| a.low[0].total_cmp(&b.low[0]).then(a.members[0].cmp(&b.members[0])));
     let mut parents: Vec<usize> = (0..groups.len()).collect();
+    let slots: Vec<Slot> =
+        groups.iter().map(|group| Slot { low: group.low, high: group.high, fresh: group.fresh }).collect();
     let mut merged = false;
-    for (i, group) in groups.iter().enumerate() {
-        for (j, other) in groups.iter().enumerate().skip(i + 1) {
-            if other.low[0] - group.high[0] >= clearance {
+    for (i, slot) in slots.iter().enumerate() {
+        for (other, j) in slots[i + 1..].iter().zip(i + 1..) {
+            if other.low[0] - slot.high[0] >= clearance {
                 break;
             }
+            let apart = (slot.low[1] - other.high[1]).max(other.low[1] - slot.high[1]);
+            if apart >= clearance || !(slot.fresh || other.fresh) {
+                continue;
+            }
             let (first, second) = (root(&mut parents, i), root(&mut parents, j));
-            if first != second && (group.fresh || other.fresh) && group.is_nearer_than(other, clearance) {
+            if first != second && groups[i].is_nearer_than(&groups[j], clearance) {
                 parents[first.max(second)] = first.min(second);
                 merged = true;
             }
@@ -134,7 +147,6 @@ impl Group {
     }
 
     fn is_nearer_than(&self, other: &Self, clearance: f64) -> bool {
-        let apart = |axis: usize| (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]);
-        apart(1) < clearance && self.shape.outline().is_nearer_than(&other.shape.outline(), clearance)
+        self.shape.outline().is_nearer_than(&other.shape.outline(), clearance)
     }
 }

@@ -22,7 +22,12 @@ impl Push {
 
     /// Psi_hat of another robot ahead in the chain: repulsive in zone 2.
     pub fn of_robot_ahead(zoning: &Zoning, robot: Vector2<f64>, other: Vector2<f64>) -> Self {
-        let (towards, distance) = direction(other - robot);
+        let offset = other - robot;
+        let reach = zoning.radii().rho_hat;
+        if offset.norm_squared() >= reach * reach {
+            return Self { force: Vector2::zeros(), value: 0.0 };
+        }
+        let (towards, distance) = direction(offset);
         Self { force: zoning.repulsion(distance) * towards, value: zoning.repulsive_value(distance) }
     }
 

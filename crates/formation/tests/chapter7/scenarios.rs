@@ -69,7 +69,8 @@ fn out_of_a_bay() {
         wall(2, at(0.0, 0.0), at(6.0, 0.0)),
         wall(3, at(0.0, 4.0), at(6.0, 4.0)),
     ];
-    let scenario = |remedies| ChainScenario {
+    let watch = WatchSettings { radius: 0.1, patience: 1.0, arrived: 0.05 };
+    let scenario = ChainScenario {
         segment: Curve::new(&CurveShape::Line(at(-20.0, -3.0), at(20.0, -3.0)), false, false).unwrap(),
         team_goal: None,
         robots: vec![PointState::at_rest(at(1.0, 1.5))],
@@ -77,11 +78,10 @@ fn out_of_a_bay() {
         clearance: 5.0,
         potential: ObstaclePotential::new(0.0, 1.0, 10.0, Sharpness::Two, Edge::Continuous, 1e4).unwrap(),
         encroaching: Encroaching::Obstacles,
-        remedies,
+        remedies: Some(Remedies { watch, rising: 0.5 }),
         ..chain_of_7_10(5.0)
     };
-    let watch = WatchSettings { radius: 0.1, patience: 1.0, arrived: 0.05 };
-    let mut simulation = ChainSimulation::new(scenario(Some(Remedies { watch, rising: 0.5 }))).unwrap();
+    let mut simulation = ChainSimulation::new(scenario).unwrap();
     assert_eq!(simulation.obstacles().len(), 1);
     let mut least = f64::INFINITY;
     for _ in 0..60_000 {
