@@ -1,5 +1,7 @@
 //! `trench launch`: runs a ROS 2 launch file.
 
+mod journals;
+
 use clap::Parser;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -38,6 +40,10 @@ pub(crate) struct Arguments {
     /// Where logs, parameter files and what the run leaves behind go [default: run/FILE-TIME-PID].
     #[arg(long, value_name = "FOLDER")]
     run_dir: Option<PathBuf>,
+    /// Each node keeps a journal for trench bag check, in a folder `journals` beside the bag if one is recorded, else in
+    /// the run folder. `images`: camera images too (40 MB/s), so that the localizer can be checked.
+    #[arg(long, value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "messages")]
+    journal: Option<journals::Kept>,
 }
 
 pub(crate) fn name_and_value(text: &str) -> Result<(String, String), String> {
@@ -52,6 +58,8 @@ enum LaunchError {
     Config(#[from] trench_config::ConfigError),
     #[error(transparent)]
     Supervise(#[from] trench_launch::SuperviseError),
+    #[error("{} exists already; remove it, or give the run another folder", .0.display())]
+    JournalsExist(PathBuf),
     #[error("{0}")]
     Io(#[from] std::io::Error),
 }
@@ -76,7 +84,7 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     let environment: BTreeMap<String, String> = std::env::vars_os()
         .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)))
         .collect();
-    let plan = trench_launch::resolve(&Request {
+    let mut plan = trench_launch::resolve(&Request {
         file: &arguments.file,
         arguments: &arguments.arguments.iter().cloned().collect(),
         environment: &environment,
@@ -85,6 +93,9 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     })?;
     for warning in &plan.warnings {
         eprintln!("trench launch: warning: {warning}");
+    }
+    if let Some(kept) = arguments.journal {
+        journals::keep(&mut plan, kept, &run_folder)?;
     }
     if arguments.dry_run {
         let text = serde_json::to_string_pretty(&describe(&plan)).map_err(std::io::Error::from)?;

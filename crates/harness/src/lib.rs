@@ -11,5 +11,5 @@ pub mod replay;
 
 pub use bus::BusError;
 pub use disk::Disk;
-pub use load::{LoadError, Loaded, load, load_journalled, plan};
+pub use load::{LoadError, Loaded, load, load_journalled, parameters, plan};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};

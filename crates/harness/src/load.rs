@@ -5,7 +5,7 @@ use crate::lockstep::Instance;
 use std::collections::BTreeMap;
 use std::path::Path;
 use trench_config::params::{Source, resolve};
-use trench_config::{ConfigError, ParameterDescriptor};
+use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
 use trench_core::{Files, NodeContext, NodeDescription};
 use trench_journal::{BuildError, Journals};
@@ -103,6 +103,27 @@ fn instance(
     seed: u64,
     journals: Option<&Journals>,
 ) -> Result<Instance, LoadError> {
+    let (arguments, resolved) = resolved(&node, process, files)?;
+    let names = Names::new(&arguments.remaps, node.name);
+    let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
+    let core = trench_journal::build(&node, &context, &resolved, files, &names, journals)
+        .map_err(|error| LoadError::Start { label: process.label.clone(), error: Box::new(error) })?;
+    Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
+}
+
+/// The parameters with which `process` starts `node`.
+///
+/// # Errors
+/// When its command line or a parameter is wrong.
+pub fn parameters(node: &NodeDescription, process: &Process, files: &dyn Files) -> Result<Parameters, LoadError> {
+    Ok(resolved(node, process, files)?.1)
+}
+
+fn resolved(
+    node: &NodeDescription,
+    process: &Process,
+    files: &dyn Files,
+) -> Result<(Arguments, Parameters), LoadError> {
     let label = || process.label.clone();
     let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
         .map_err(|error| LoadError::Usage { label: label(), error })?;
@@ -114,10 +135,7 @@ fn instance(
     descriptors.push(ParameterDescriptor::string_list("publish_over_network", &[], "topics to send to viewers too"));
     let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
     let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
-    let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
-    let core = trench_journal::build(&node, &context, &resolved, files, &names, journals)
-        .map_err(|error| LoadError::Start { label: label(), error: Box::new(error) })?;
-    Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
+    Ok((arguments, resolved))
 }
 
 /// The text behind each parameter source: of the files that the launcher would write, or that are there.

@@ -1,6 +1,7 @@
 //! The file of a journal.
 
 use crate::JournalError;
+use crate::make::Pace;
 use crate::record::{End, Record};
 use crate::start::Start;
 use mcap::records::MessageHeader;
@@ -36,26 +37,26 @@ pub(crate) struct JournalFile {
 
 impl JournalFile {
     /// Makes `<folder>/<name>.mcap`, or `<name>.2.mcap` and so on where a node was started again.
-    pub(crate) fn create(folder: &Path, name: &str, start: &Start) -> Result<Self, JournalError> {
+    pub(crate) fn create(folder: &Path, name: &str, start: &Start, pace: Pace) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(JournalError::io(folder))?;
         let (path, file) = new_file(folder, name)?;
-        Self::over(path, file, start)
+        Self::over(path, file, start, pace)
     }
 
     /// Replaces the file at `path` by a new journal.
     pub(crate) fn replace(path: &Path, start: &Start) -> Result<Self, JournalError> {
         let file = File::create(path).map_err(JournalError::io(path))?;
-        Self::over(path.to_owned(), file, start)
+        Self::over(path.to_owned(), file, start, Pace::LockStep)
     }
 
-    fn over(path: PathBuf, file: File, start: &Start) -> Result<Self, JournalError> {
+    fn over(path: PathBuf, file: File, start: &Start, pace: Pace) -> Result<Self, JournalError> {
         // Images of a noisy camera hardly shrink, and compressing them would cost a processor.
         let compression = if start.keeps_large { None } else { Some(mcap::Compression::Zstd) };
         let made = mcap::WriteOptions::new()
             .profile("trench_journal")
             .library(concat!("trench ", env!("CARGO_PKG_VERSION")))
             .compression(compression)
-            .compression_level(1)
+            .compression_level(pace.compression_level())
             .compression_threads(0)
             // Chunks end where `flush` is called and nowhere else.
             .chunk_size(None)

@@ -29,7 +29,7 @@ impl Journal {
     /// When the file or its thread cannot be made.
     pub fn create(folder: &Path, start: &Start, pace: Pace) -> Result<Self, JournalError> {
         let name = start.full_name().trim_start_matches('/').replace('/', ".");
-        let file = JournalFile::create(folder, &name, start)?;
+        let file = JournalFile::create(folder, &name, start, pace)?;
         let target = match pace {
             Pace::RealTime => Target::Thread(Queue::start(file).map_err(JournalError::io(folder))?),
             Pace::LockStep => Target::Direct(Box::new(file)),

@@ -30,6 +30,16 @@ pub enum Pace {
     LockStep,
 }
 
+impl Pace {
+    /// Of zstd: robots' controllers need the processor, simulations leave files that stay.
+    pub(crate) fn compression_level(self) -> u32 {
+        match self {
+            Self::RealTime => 1,
+            Self::LockStep => 19,
+        }
+    }
+}
+
 /// Why a core was not made.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {

@@ -1,0 +1,75 @@
+//! A change of behaviour is found and named.
+
+use super::{check, golden};
+use std::path::Path;
+use trench_config::ParameterValue;
+use trench_harness::replay::{Verdict, replay_from};
+use trench_journal::{Journal, JournalReader, Start};
+
+const CONTROLLER: &str = "robot1.formation_controller.mcap";
+
+/// The start of a journal with one gain higher by 1 %.
+fn with_more_gain(journal: &JournalReader, gain: &str) -> Start {
+    let mut start = journal.start().clone();
+    let parameter = start.parameters.iter_mut().find(|parameter| parameter.name == gain).unwrap();
+    let ParameterValue::Double(value) = &mut parameter.value else { panic!("{parameter:?}") };
+    *value *= 1.01;
+    start
+}
+
+/// Copies a journal, with another start.
+fn rewrite(journal: &JournalReader, start: &Start, to: &Path) {
+    let mut written = Journal::replace(to, start).unwrap();
+    for step in journal.steps() {
+        let step = step.unwrap();
+        let records = step.records();
+        let bytes = step.with_outputs(&records, records.rest());
+        written.append(step.at, bytes).unwrap();
+    }
+    written.finish().unwrap();
+}
+
+#[test]
+fn one_per_cent_of_a_gain_is_found() {
+    let journal = JournalReader::open(&golden("square").join(CONTROLLER)).unwrap();
+    let report = replay_from(&journal, &with_more_gain(&journal, "gains.k1")).unwrap();
+    let Verdict::Differs(first) = &report.verdict else { panic!("{:?}", report.verdict) };
+    assert_eq!(first.node, "/robot1/formation_controller");
+    assert_eq!(first.subject, "/robot1/cmd_vel", "{first}");
+    assert!(first.pair.path.starts_with("twist.linear.x") || first.pair.path.starts_with("twist.angular.z"), "{first}");
+    assert!(first.equal_before > 0 && first.seconds > 0.0, "{first}");
+    let by = first.pair.by.unwrap();
+    assert!(by > 0.0 && by < 0.1, "{first}");
+    println!("{first}");
+}
+
+#[test]
+fn the_command_reports_a_change_and_renews_the_journal() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = JournalReader::open(&golden("square").join(CONTROLLER)).unwrap();
+    let path = folder.path().join(CONTROLLER);
+    rewrite(&journal, &with_more_gain(&journal, "gains.k1"), &path);
+
+    let (code, said) = check(&[], folder.path());
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("/robot1/formation_controller: /robot1/cmd_vel at t = "), "{said}");
+    assert!(said.contains("recorded ") && said.contains(", now ") && said.contains("outputs equal before"), "{said}");
+
+    let (code, said) = check(&["--update"], folder.path());
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("differed, written anew"), "{said}");
+    let (code, said) = check(&[], folder.path());
+    assert_eq!(code, Some(0), "{said}");
+    assert_eq!(super::journals(folder.path()), [path], "nothing is left beside it");
+}
+
+#[test]
+fn a_configuration_that_the_node_refuses_is_a_difference() {
+    let journal = JournalReader::open(&golden("square").join(CONTROLLER)).unwrap();
+    let mut start = journal.start().clone();
+    start.parameters.iter_mut().find(|parameter| parameter.name == "gains.k1").unwrap().value =
+        ParameterValue::Double(-1.0);
+    let report = replay_from(&journal, &start).unwrap();
+    let Verdict::Differs(first) = &report.verdict else { panic!("{:?}", report.verdict) };
+    assert!(first.subject == "start" && first.pair.now.contains("gains.k1"), "{first}");
+}

@@ -1,0 +1,61 @@
+//! A run of processes in real time, checked from the journals they kept.
+
+use super::check;
+use std::path::Path;
+use std::process::Command;
+
+/// The programs a launch starts; `cargo build --workspace --bins` makes them.
+const NODES: [&str; 7] = [
+    "formation_controller",
+    "leader_assignment",
+    "obstacle_mapper",
+    "operator",
+    "overhead_localizer",
+    "rf_bridge",
+    "testbed",
+];
+
+/// Launches the square for six seconds, with a bag, and gives what it said.
+fn launch(folder: &Path, domain: u32, arguments: &[&str]) -> String {
+    let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
+    for program in NODES {
+        let path = trench.with_file_name(program);
+        assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
+    }
+    let domain = 110 + (std::process::id() % 20) * 4 + domain;
+    let output = Command::new(trench)
+        .arg("launch")
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("launch/square.launch.yaml"))
+        .args(["duration:=6.0", "tolerance:=3.0", "record:=true"])
+        .arg(format!("bag:={}", folder.join("bag").display()))
+        .arg(format!("port:={}", folder.join("port").display()))
+        .arg("--run-dir")
+        .arg(folder.join("run"))
+        .args(arguments)
+        .env("ROS_DOMAIN_ID", domain.to_string())
+        .env("TRENCH_SHM_PREFIX", format!("replay{domain}_{}_", std::process::id()))
+        .env("TRENCH_STATE_DIR", folder.join("state"))
+        .output()
+        .unwrap();
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+#[test]
+fn live_every_node_of_a_square_replays_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let launched = launch(folder.path(), 0, &["--journal=images"]);
+    let (code, said) = check(&[], &folder.path().join("bag"));
+    println!("{said}");
+    assert_eq!(code, Some(0), "{said}\n{launched}");
+    assert_eq!(said.matches("  equal\n").count(), 10, "{said}");
+}
+
+#[test]
+fn live_without_images_all_but_the_localizer_can_be_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let launched = launch(folder.path(), 1, &["--journal"]);
+    let (code, said) = check(&[], &folder.path().join("bag"));
+    assert_eq!(code, Some(2), "{said}\n{launched}");
+    assert_eq!(said.matches("  equal\n").count(), 9, "{said}");
+    assert!(said.contains("/overhead/image_raw: images were not journalled"), "{said}");
+}
