@@ -2,14 +2,16 @@
 //!
 //! A [`Watch`] notices that a robot rests where forces cancel, (7.10). A [`Guard`] drawn before an apparent obstacle turns the
 //! repulsion aside: [`auxiliary_arc`] where the nearest point moves along with the robot (Fig. 7.12), [`auxiliary_lines`] where it
-//! does not (Fig. 7.13). [`escape`] leads out of a combined hull that has closed around a robot.
+//! does not (Fig. 7.13). [`escape`] leads out of a combined hull that has closed around a robot. [`ComparedRepulsion`] is what 7.8 compares with.
 mod arc;
+mod compared;
 mod escape;
 mod guard;
 mod lines;
 mod watch;
 
 pub use arc::auxiliary_arc;
+pub use compared::ComparedRepulsion;
 pub use escape::escape;
 pub use guard::Guard;
 pub use lines::auxiliary_lines;

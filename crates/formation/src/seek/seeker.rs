@@ -102,6 +102,11 @@ struct Search<'a> {
 impl Search<'_> {
     /// (7.2) on those of the intervals that count; the first of equals.
     fn nearest(&self, intervals: &[Interval], counts: impl Fn(Interval) -> bool) -> Option<Foot> {
+        let unrestricted = self.segment.nearest(self.robot);
+        let holds = |(from, to): Interval| from <= unrestricted.arc_length && unrestricted.arc_length <= to;
+        if intervals.iter().any(|interval| holds(*interval) && counts(*interval)) {
+            return Some(unrestricted);
+        }
         let mut best: Option<Foot> = None;
         for interval in intervals.iter().copied().filter(|interval| counts(*interval)) {
             let foot = self.segment.nearest_within(self.robot, interval);

@@ -1,0 +1,49 @@
+//! What can be seen of a simulated chain.
+use super::ChainSimulation;
+use crate::curve::Interval;
+use crate::hull::ApparentObstacle;
+use crate::kinematics::PointState;
+use crate::laws::Steered;
+
+impl<T> ChainSimulation<T> {
+    /// Seconds simulated.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.scenario.step
+    }
+
+    /// Robots by rank.
+    pub fn robots(&self) -> &[PointState] {
+        &self.robots
+    }
+
+    /// What the law said at the last step, by rank.
+    pub fn steered(&self) -> &[Steered] {
+        &self.steered
+    }
+
+    /// Distances from the points that drew the robots at the last step, m; infinite before any did.
+    pub fn deviations(&self) -> &[f64] {
+        &self.deviations
+    }
+
+    /// Apparent obstacles.
+    pub fn obstacles(&self) -> &[ApparentObstacle] {
+        &self.obstacles
+    }
+
+    /// The qualified fragments of the robot of a rank (1 is the chain leader).
+    pub fn fragments(&self, rank: usize) -> &[Interval] {
+        self.fragments[rank.saturating_sub(1).min(self.fragments.len() - 1)].intervals()
+    }
+
+    /// Least distance between any two robots now, m.
+    pub fn least_distance(&self) -> f64 {
+        let mut least = f64::INFINITY;
+        for (index, robot) in self.robots.iter().enumerate() {
+            for other in &self.robots[..index] {
+                least = least.min((robot.position - other.position).norm_squared());
+            }
+        }
+        least.sqrt()
+    }
+}
