@@ -3,7 +3,7 @@
 use crate::JournalError;
 use crate::file::JournalFile;
 use crate::make::Pace;
-use crate::queue::Queue;
+use crate::queue::{LIMIT, Queue};
 use crate::record::End;
 use crate::start::Start;
 use std::path::Path;
@@ -31,7 +31,7 @@ impl Journal {
         let name = start.full_name().trim_start_matches('/').replace('/', ".");
         let file = JournalFile::create(folder, &name, start, pace)?;
         let target = match pace {
-            Pace::RealTime => Target::Thread(Queue::start(file).map_err(JournalError::io(folder))?),
+            Pace::RealTime => Target::Thread(Queue::start(file, LIMIT).map_err(JournalError::io(folder))?),
             Pace::LockStep => Target::Direct(Box::new(file)),
         };
         Ok(Self { target, keeps_large: start.keeps_large })

@@ -29,3 +29,6 @@ pub use reader::{Break, JournalReader, Step, Steps};
 pub use record::{End, Input, Output, Payload, Record, Records};
 pub use start::{FileText, Parameter, Port, Ports, Start};
 pub use witness::Witness;
+
+#[cfg(test)]
+mod tests;

@@ -11,7 +11,7 @@ use std::time::Duration;
 use trench_core::Times;
 
 /// The most bytes that wait for the disk.
-const LIMIT: usize = 64 << 20;
+pub(crate) const LIMIT: usize = 64 << 20;
 /// How often the age of the open chunk is looked at.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -29,11 +29,12 @@ pub(crate) struct Queue {
     sender: Option<Sender<Item>>,
     thread: Option<JoinHandle<()>>,
     shared: Arc<Shared>,
+    limit: usize,
 }
 
 impl Queue {
-    /// Starts the thread.
-    pub(crate) fn start(file: JournalFile) -> std::io::Result<Self> {
+    /// Starts the thread; at most `limit` bytes wait for it.
+    pub(crate) fn start(file: JournalFile, limit: usize) -> std::io::Result<Self> {
         let (sender, receiver) = channel();
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
@@ -42,17 +43,17 @@ impl Queue {
                 *theirs.problem.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
             }
         })?;
-        Ok(Self { sender: Some(sender), thread: Some(thread), shared })
+        Ok(Self { sender: Some(sender), thread: Some(thread), shared, limit })
     }
 
     /// Hands over a step, or says why the journal ends here. Never waits.
     pub(crate) fn push(&mut self, item: Item) -> Result<(), String> {
         let Some(sender) = &self.sender else { return Ok(()) };
         let length = item.1.len();
-        if self.shared.waiting.fetch_add(length, Ordering::Relaxed) + length > LIMIT {
+        if self.shared.waiting.fetch_add(length, Ordering::Relaxed) + length > self.limit {
             self.shared.overflowed.store(true, Ordering::Release);
             self.sender = None;
-            return Err(format!("the disk is too slow: {LIMIT} bytes wait for it"));
+            return Err(format!("the disk is too slow: {} bytes wait for it", self.limit));
         }
         if sender.send(item).is_err() {
             self.sender = None;
