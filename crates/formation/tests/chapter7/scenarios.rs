@@ -60,6 +60,35 @@ fn refused_scenarios() {
     check(trapped, "r1 starts inside obstacle 2");
 }
 
+/// Step (1) in full: robots ahead encroach on the segment, so a nearest point is never beside one of them.
+#[test]
+fn robots_ahead_encroach() {
+    let mut simulation = ChainSimulation::new(ChainScenario {
+        robots: chain_of_7_10(5.0).robots[..4].to_vec(),
+        encroaching: Encroaching::ObstaclesAndRobots(1.0),
+        steps_per_tick: 100,
+        ..chain_of_7_10(5.0)
+    })
+    .unwrap();
+    let mut closest = f64::INFINITY;
+    for _ in 0..30_000 {
+        simulation.step().unwrap();
+        closest = closest.min(simulation.least_distance());
+    }
+    assert!(closest > 3.5, "{closest}");
+    let mut looked_at = 0;
+    for (index, robot) in simulation.robots().iter().enumerate() {
+        let [x, y] = [robot.position.x, robot.position.y];
+        let on_segment = (0.5 * (x + y) + 5.0) * core::f64::consts::SQRT_2;
+        for rank in (index + 2..=4).filter(|_| (x - y).abs() < 1.0) {
+            let free = |(from, to): &(f64, f64)| *from < on_segment + 3.0 && on_segment - 3.0 < *to;
+            assert!(!simulation.fragments(rank).iter().any(free), "r{} stands on a fragment of r{rank}", index + 1);
+            looked_at += 1;
+        }
+    }
+    assert!(looked_at > 0);
+}
+
 /// 7.7: a bay of three walls, combined; the robot in it is led out by the mouth, round the walls, to the segment behind them.
 #[test]
 fn out_of_a_bay() {
