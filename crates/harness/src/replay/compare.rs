@@ -1,7 +1,7 @@
 //! Comparing outputs step by step.
 
 use super::difference::{Changes, Difference, Pair};
-use super::rerun::{Elapsed, Report, Verdict};
+use super::report::{Elapsed, Report, Verdict};
 use super::subject::Subjects;
 use trench_core::{StartError, Times};
 use trench_journal::{Output, Port, Ports, Record, Records, Start};

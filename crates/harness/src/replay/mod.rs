@@ -2,9 +2,13 @@
 
 mod compare;
 mod difference;
+mod report;
 mod rerun;
 mod subject;
 mod text;
+mod update;
 
 pub use difference::{Change, Changes, Difference, Pair};
-pub use rerun::{ReplayError, Report, Verdict, move_over, replay, replay_from, update};
+pub use report::{ReplayError, Report, Verdict};
+pub use rerun::{replay, replay_from};
+pub use update::{move_over, update};
