@@ -17,6 +17,9 @@ pub(crate) enum Input {
     Detections,
 }
 
+/// What an ordinary detector's centres of discs are taken to be off by, m: a tenth of a pixel of the test bed's camera.
+const DETECTED_SIGMA: f64 = 3e-4;
+
 /// What the localizer is told once.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
@@ -60,7 +63,13 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("colour.blue", colours.blue_ratio, "least (2 B - R - G) / (R + G + B) of blue").range(0.05, 2.0),
         P::double("colour.minimum", colours.minimum, "of 510, least absolute difference of either").range(5.0, 510.0),
         P::double("hold", 0.5, "s, how long an unseen robot is carried forward before it is lost").range(0.0, 10.0),
-        P::double("disc_sigma", 5e-5, "m, standard deviation of a disc's measured centre").range(1e-6, 0.1),
+        P::double(
+            "disc_sigma",
+            0.0,
+            "m, standard deviation of a disc's measured centre; 0: 5e-5 for discs found here, 3e-4 (a tenth of a pixel) \
+             for detections",
+        )
+        .range(0.0, 0.1),
         P::double("motion.acceleration", motion.acceleration, "m/s/sqrt(s), how freely forward speeds change")
             .range(1e-3, 100.0),
         P::double("motion.turning", motion.turning, "rad/s/sqrt(s), how freely turning speeds change").range(1e-3, 1e3),
@@ -126,7 +135,11 @@ impl Settings {
         };
         let team = track::Settings {
             spacing_tolerance: parameters.f64("pad.tolerance")?,
-            disc_sigma: parameters.f64("disc_sigma")?,
+            disc_sigma: match parameters.f64("disc_sigma")? {
+                known if known > 0.0 => known,
+                _ if self.input == Input::Detections => DETECTED_SIGMA,
+                _ => track::Settings::FOUND_SIGMA,
+            },
             added_sigma: parameters.f64_array("added_noise.sigma")?,
             hold: parameters.f64("hold")?,
             motion: Motion {

@@ -1,6 +1,6 @@
 //! Identities that a former life of the localizer knew, weighed against the start poses by what the camera sees.
 
-use super::filter::Filter;
+use super::filter::{FARTHEST, Filter};
 use super::identity::Hypotheses;
 use super::tracker::{Track, Tracker};
 use super::{MapDisc, wrap};
@@ -46,7 +46,7 @@ impl Remembered {
         let doubt = |axis: usize, speed: f64| {
             let stopping = (speed.abs() + SPEED[axis]) * coasting;
             let moved = MOVED[axis] * libm::sqrt(age + self.unseen);
-            libm::sqrt(KNOWN[axis] * KNOWN[axis] + stopping * stopping + moved * moved)
+            libm::sqrt(KNOWN[axis] * KNOWN[axis] + stopping * stopping + moved * moved).min(FARTHEST[axis])
         };
         let place = doubt(0, self.v);
         Filter::new(expected, [place, place, doubt(1, self.omega)])

@@ -32,6 +32,9 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Standard deviation of the centres that [`crate::vision`] finds, m: a sixtieth of a pixel of the test bed's camera.
+    pub const FOUND_SIGMA: f64 = 5e-5;
+
     /// For these robots, everything else as on the test bed.
     #[must_use]
     pub fn new(robots: Vec<Robot>) -> Self {
@@ -39,7 +42,7 @@ impl Settings {
             robots,
             pad: Pad::NOMINAL,
             spacing_tolerance: 0.005,
-            disc_sigma: 5e-5,
+            disc_sigma: Self::FOUND_SIGMA,
             added_sigma: [0.0; 3],
             hold: 0.5,
             motion: Motion::default(),
