@@ -1,4 +1,5 @@
 //! Journals: golden ones replay bit for bit, a changed gain is found, damage is told, a live run replays too.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
 
 #[path = "replay/damage.rs"]
 mod damage;

@@ -3,6 +3,9 @@
 use super::check;
 use std::path::Path;
 use std::process::Command;
+use std::time::Duration;
+use trench_harness::replay::{Verdict, replay};
+use trench_journal::JournalReader;
 
 /// The programs a launch starts; `cargo build --workspace --bins` makes them.
 const NODES: [&str; 7] = [
@@ -58,4 +61,31 @@ fn live_without_images_all_but_the_localizer_can_be_checked() {
     assert_eq!(code, Some(2), "{said}\n{launched}");
     assert_eq!(said.matches("  equal\n").count(), 9, "{said}");
     assert!(said.contains("/overhead/image_raw: images were not journalled"), "{said}");
+}
+
+#[test]
+fn live_a_killed_node_loses_less_than_a_second() {
+    let folder = tempfile::tempdir().unwrap();
+    let domain = 110 + (std::process::id() % 20) * 4 + 2;
+    let mut node = Command::new(Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("rf_bridge"))
+        .args(["--ros-args", "-p", "robots:=[robot1]", "-p"])
+        .arg(format!("serial.port:={}", folder.path().join("port").display()))
+        .env("ROS_DOMAIN_ID", domain.to_string())
+        .env("TRENCH_SHM_PREFIX", format!("replay{domain}_{}_", std::process::id()))
+        .env("TRENCH_STATE_DIR", folder.path().join("state"))
+        .env("TRENCH_JOURNAL_DIR", folder.path().join("journals"))
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_secs(4));
+    let killed_at = rustix::time::clock_gettime(rustix::time::ClockId::Monotonic);
+    node.kill().unwrap();
+    node.wait().unwrap();
+
+    let journal = JournalReader::open(&folder.path().join("journals/rf_bridge.mcap")).unwrap();
+    let last = journal.steps().filter_map(Result::ok).last().unwrap();
+    let lost = killed_at.tv_sec as f64 + killed_at.tv_nsec as f64 * 1e-9 - last.at.steady.0 as f64 * 1e-9;
+    assert!(lost < 1.0, "{lost} s");
+    println!("{lost:.3} s lost");
+    let Verdict::NotReplayable { from, reason } = replay(&journal).unwrap().verdict else { panic!("it has no end") };
+    assert!(from > 1.0 && reason.contains("its process was killed"), "{from}: {reason}");
 }
