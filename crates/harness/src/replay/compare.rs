@@ -51,15 +51,16 @@ impl Comparison {
             ("services", &recorded.services, &now.services),
             ("clients", &recorded.clients, &now.clients),
         ];
-        // Names are not compared: remapping is the process's, not the core's.
-        let types = |ports: &[Port]| ports.iter().map(|port| port.type_hash.clone()).collect::<Vec<_>>();
-        let list = |ports: &[Port]| {
-            let ports: Vec<String> = ports.iter().map(|port| format!("{} ({})", port.name, port.type_name)).collect();
-            ports.join(", ")
+        let text = |port: Option<&Port>| match port {
+            Some(port) => format!("{} ({})", port.name, port.type_name),
+            None => "nothing".to_owned(),
         };
         for (what, recorded, now) in pairs {
-            if types(recorded) != types(now) {
-                self.differs(what, &list(recorded), &list(now));
+            // Names are not compared: remapping is the process's, not the core's.
+            let same = |(was, is): &(&Port, &Port)| was.type_hash == is.type_hash;
+            let at = recorded.iter().zip(now).take_while(same).count();
+            if at < recorded.len().max(now.len()) {
+                self.differs(&format!("{what}[{at}]"), &text(recorded.get(at)), &text(now.get(at)));
             }
         }
     }
