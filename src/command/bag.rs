@@ -1,5 +1,6 @@
 //! `trench bag`: look at, judge and repair recorded runs.
 
+use super::say;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -61,7 +62,7 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
             return ExitCode::FAILURE;
         }
         Action::Check(check) => return check.run(),
-        Action::Info { bag } => BagReader::open(bag).map(|bag| print!("{}", info::Info(&bag))),
+        Action::Info { bag } => BagReader::open(bag).map(|bag| say(info::Info(&bag))),
         Action::Analyze { bag, json, at, interval } => analyze(bag, *json, at, interval),
         Action::Recover { bag, out } => recover(bag, out),
     };
@@ -85,9 +86,9 @@ fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), 
     }
     let summary = summary(&run, &options);
     if json {
-        println!("{:#}", serde_json::json!(summary));
+        say(format_args!("{:#}\n", serde_json::json!(summary)));
     } else {
-        print!("{summary}");
+        say(summary);
     }
     Ok(())
 }
@@ -100,7 +101,7 @@ fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
     let count = writer.message_count();
     writer.finish()?;
     copied?;
-    println!("{count} messages recovered into {}", out.display());
+    say(format_args!("{count} messages recovered into {}\n", out.display()));
     Ok(())
 }
 

@@ -6,6 +6,8 @@ mod plot;
 mod sim;
 
 use clap::Parser;
+use std::fmt::Display;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Makes teams of small robots take up and hold formations.
@@ -28,4 +30,9 @@ impl Command {
             Self::Sim(arguments) => sim::run(&arguments),
         }
     }
+}
+
+/// Writes to standard output. A reader that has gone (`trench sim ... | head`) is no reason to fail.
+pub(crate) fn say(text: impl Display) {
+    let _ = write!(std::io::stdout().lock(), "{text}");
 }

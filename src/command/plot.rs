@@ -9,6 +9,7 @@ mod speeds;
 mod style;
 mod trajectories;
 
+use super::say;
 use clap::Args;
 use output::Format;
 use std::fs;
@@ -56,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
     match draw_all(arguments) {
         Ok(paths) => {
             for path in paths {
-                println!("{}", path.display());
+                say(format_args!("{}\n", path.display()));
             }
             ExitCode::SUCCESS
         }

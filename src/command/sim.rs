@@ -1,6 +1,7 @@
 //! `trench sim`: drives the node cores of a launch file in lock-step, without processes.
 
 use super::launch::name_and_value;
+use super::say;
 use clap::Parser;
 use std::collections::BTreeMap;
 use std::fs;
@@ -112,9 +113,9 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     }
     let summary = summary(&run, &SummaryOptions::default());
     if arguments.json {
-        println!("{:#}", serde_json::json!(summary));
+        say(format_args!("{:#}\n", serde_json::json!(summary)));
     } else {
-        print!("{summary}");
+        say(summary);
     }
     let mut console = std::io::stderr();
     // A closed console is no reason to fail a run.

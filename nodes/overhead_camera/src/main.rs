@@ -1,5 +1,5 @@
 //! The camera's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(overhead_camera::description())
+    trench_runtime::run_without_journal(overhead_camera::description())
 }

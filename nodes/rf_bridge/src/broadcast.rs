@@ -2,17 +2,17 @@
 
 use crate::core::RfBridge;
 use crate::robot::{Order, Robot};
-use trench_core::{Sink, Times};
+use trench_core::{Sink, Steady, Times};
 use trench_radio::{Commands, Payload, Wheels};
 
 impl RfBridge {
-    pub(crate) fn driving(&self) -> bool {
-        !self.stop.active() && (self.running || !self.tuning.needs_run_state)
+    pub(crate) fn driving(&self, now: Steady) -> bool {
+        !self.stop.active() && !self.stop.reached_for(now) && (self.running || !self.tuning.needs_run_state)
     }
 
     /// A command came in: send at once if it was the last of its camera frame, else wait a moment for the others.
     pub(crate) fn gather(&mut self, at: Times, sink: &mut dyn Sink) {
-        if !self.driving() {
+        if !self.driving(at.steady) {
             self.robots.iter_mut().for_each(Robot::halt);
             return;
         }
@@ -36,7 +36,7 @@ impl RfBridge {
             self.robots.iter_mut().for_each(Robot::halt);
             return;
         }
-        let driving = self.driving();
+        let driving = self.driving(at.steady);
         let transport = self.downlink.duration(self.robots.len()) + self.tuning.radio_delay;
         let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
         for robot in &mut self.robots {

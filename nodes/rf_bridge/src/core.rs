@@ -143,7 +143,13 @@ impl NodeCore for RfBridge {
             }
             Event::Bytes { stream: STREAM, data } => self.hear(at, data, sink),
             Event::StreamState { stream: STREAM, open } => self.stream(at, open, sink),
-            Event::Matched { port: EMERGENCY_STOP, writers } => self.stop.writers(writers),
+            Event::Matched { port: EMERGENCY_STOP, writers } => {
+                self.stop.writers(writers, at.steady);
+                if self.stop.reached_for(at.steady) {
+                    self.halt(at, sink);
+                    self.diagnose(at.steady);
+                }
+            }
             Event::Wakeup => self.wake(at, sink),
             Event::Shutdown => {
                 self.running = false;

@@ -16,8 +16,11 @@ impl RfBridge {
         for (name, count) in self.decoder.errors().iter().chain(self.errors.iter()) {
             self.health.value("serial port", name, count);
         }
-        let (condition, text) = match (self.stop.active(), self.driving()) {
+        let (condition, text) = match (self.stop.active(), self.driving(now)) {
             (true, _) => (Condition::Error, "emergency stop: call ~/reset"),
+            (false, false) if self.stop.reached_for(now) => {
+                (Condition::Warn, "resting: a new publisher of /emergency_stop has not spoken yet")
+            }
             (false, true) => (Condition::Ok, "driving"),
             (false, false) => (Condition::Ok, "not running: commands are zero"),
         };

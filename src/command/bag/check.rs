@@ -3,6 +3,7 @@
 mod find;
 mod show;
 
+use super::super::say;
 use clap::Args;
 use find::FindError;
 use std::path::{Path, PathBuf};
@@ -58,9 +59,9 @@ impl Check {
             }
         };
         if self.json {
-            println!("{:#}", show::json(&checked));
+            say(format_args!("{:#}\n", show::json(&checked)));
         } else {
-            print!("{}", show::Table { checked: &checked, took: began.elapsed().as_secs_f64() });
+            say(show::Table { checked: &checked, took: began.elapsed().as_secs_f64() });
         }
         checked.iter().map(Checked::exit_code).max().unwrap_or(UNREADABLE).into()
     }
