@@ -1,5 +1,4 @@
 //! Hulls and distances against parry, which computes them by other means (GJK, its own hull).
-#![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use nalgebra::Vector2;
 use parry2d_f64::math::{Pose, Vector};
