@@ -3,8 +3,9 @@ use crate::Vector2;
 use crate::hull::Approach;
 use crate::laws::Push;
 
-/// U = eta/2 (1/gap - 1/reach)^2 rho_goal^n below the reach, 0 from there on: the conventional potential for n = 0, that of Ge and Cui
-/// [26] for n of 1 or more, which is 0 at the goal so that obstacles near the goal do not keep the robot from it.
+/// U = eta/2 (1/gap - 1/reach)^2 rho_goal^n below the reach, 0 from there on: the conventional potential for n = 0, that
+/// of Ge and Cui (reference 26 of the thesis) for n of 1 or more, which is 0 at the goal so that obstacles near the goal
+/// do not keep the robot from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ComparedRepulsion {
     /// eta, positive.
