@@ -32,7 +32,7 @@ const TOPICS: [(&str, &str, &str, &str); 28] = [
     ("/*/cmd_vel", "geometry_msgs/msg/TwistStamped", "/*/formation_controller", "/rf_bridge"),
     ("/obstacles", "trench_msgs/msg/ObstacleArray", "", "/obstacle_mapper"),
     ("/apparent_obstacles", "trench_msgs/msg/ApparentObstacleArray", "/obstacle_mapper", "CONTROLLERS"),
-    ("/markers", "visualization_msgs/msg/MarkerArray", "/obstacle_mapper /overhead_localizer", ""),
+    ("/markers", "visualization_msgs/msg/MarkerArray", "/leader_assignment /obstacle_mapper /overhead_localizer", ""),
     ("/*/link", "trench_msgs/msg/LinkStatus", "/rf_bridge", ""),
     ("/*/battery_state", "sensor_msgs/msg/BatteryState", "/rf_bridge", ""),
     ("/*/wheel_odom", "nav_msgs/msg/Odometry", "/rf_bridge", ""),

@@ -5,8 +5,10 @@
 
 mod file;
 mod plan;
+mod sample;
 mod segment;
 
 pub use file::parse;
 pub use plan::{Frame, Motion, Place, Plan, QueuePlan};
+pub use sample::sampled;
 pub use segment::{SegmentError, curve_from_message, shape_from_message};

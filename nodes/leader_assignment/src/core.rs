@@ -4,7 +4,7 @@ use crate::checkpoint::{self, Checkpoint, FRESH};
 use crate::organise::{Seated, organise};
 use crate::settings::{Settings, descriptors};
 use crate::virtual_point::{Carrier, virtual_point};
-use crate::{Request, RunMachine};
+use crate::{Request, RunMachine, markers};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
@@ -18,6 +18,7 @@ use trench_msgs::msg::{Assignment, Formation, Goal, Goals, Point2, RobotState, R
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Header;
 use trench_msgs::std_srvs::{Trigger, TriggerResponse};
+use trench_msgs::visualization_msgs::MarkerArray;
 
 const TEAM_STATE: usize = 0;
 const TARGET: usize = 1;
@@ -27,6 +28,10 @@ const ASSIGNMENT: usize = 1;
 const GOALS: usize = 2;
 const RUN_STATE: usize = 3;
 const DIAGNOSTICS: usize = 4;
+const MARKERS: usize = 5;
+
+/// The shortest time between two pictures for viewers, s; a tick that comes a little early counts as due.
+const PICTURES: f64 = 0.195;
 
 /// In the order of the services: ~/arm, ~/start, ~/stop, ~/reset.
 const REQUESTS: [Request; 4] = [Request::Arm, Request::Start, Request::Stop, Request::Reset];
@@ -47,6 +52,7 @@ pub struct LeaderAssignment {
     target: Option<(Steady, Carrier)>,
     health: Health,
     wakeup: Option<Steady>,
+    last_picture: Option<Steady>,
 }
 
 /// The node as processes and the simulator make it.
@@ -74,6 +80,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         team: None,
         target: None,
         wakeup: None,
+        last_picture: None,
     }))
 }
 
@@ -95,6 +102,7 @@ fn interface() -> Interface {
             Advertise::of::<Goals>("/goals", Qos::RELIABLE, TEAM),
             Advertise::of::<RunState>("/run_state", Qos::LATCHED, Local::NetworkOnly),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
+            Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
         ],
         services: ["arm", "start", "stop", "reset"].map(|name| Serve::of::<Trigger>(format!("~/{name}"))).into(),
         ..Interface::default()
@@ -132,9 +140,23 @@ impl LeaderAssignment {
         if self.unlocalised().is_empty() && self.run.localised(stamp) {
             self.announce(at, sink);
         }
-        if let Some(goals) = self.goals(at, stamp) {
-            sink.publish(GOALS, &goals);
+        let goals = self.goals(at, stamp);
+        if let Some(goals) = &goals {
+            sink.publish(GOALS, goals);
         }
+        self.draw(at, stamp, goals.as_ref(), sink);
+    }
+
+    /// Shows viewers the formation, now and then.
+    fn draw(&mut self, at: Times, stamp: RosTime, goals: Option<&Goals>, sink: &mut dyn Sink) {
+        let is_due = self.last_picture.is_none_or(|last| at.steady.seconds_since(last) >= PICTURES);
+        let (true, Some(carrier), Some(team)) = (is_due, self.carrier(at), &self.team) else { return };
+        self.last_picture = Some(at.steady);
+        let mut all = markers::of_plan(stamp.into(), &self.settings.plan, &carrier);
+        all.extend(goals.map(|goals| markers::of_goals(stamp.into(), goals)));
+        let chains = self.assignment.iter().flat_map(|assignment| markers::of_chains(stamp.into(), team, assignment));
+        all.extend(chains);
+        sink.publish(MARKERS, &MarkerArray { markers: all });
     }
 
     /// The goals at `stamp`; none before there is an assignment, or while the frame of the formation is not heard of.

@@ -5,10 +5,12 @@
 //! | formation file to queues | `trench_plan` | Definition 2.1.1 |
 //! | robots to places, chains | [`organise`] | 2.1, 6.2.1 |
 //! | goal points | [`virtual_point`] | 4.6 |
+//! | markers | `markers` | for RViz2 and Foxglove |
 //! | run state | [`RunMachine`] | services arm, start, stop, reset |
 
 mod checkpoint;
 mod core;
+mod markers;
 mod organise;
 mod run_machine;
 mod settings;

@@ -72,6 +72,12 @@ impl Carrier {
     pub fn from_map(&self, point: Vector2<f64>) -> Vector2<f64> {
         rotated(point - self.position, -self.theta)
     }
+
+    /// A point of the formation's frame as the map sees it.
+    #[must_use]
+    pub fn to_map(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.position + rotated(point, self.theta)
+    }
 }
 
 impl VirtualPoint {
@@ -157,5 +163,6 @@ mod tests {
         assert!((acceleration - now.acceleration).norm() < 1e-6);
         let there = carrier(1.0);
         assert!((there.from_map(carried(1.0).position) - at(6.0).motion.position).norm() < 1e-12);
+        assert!((there.to_map(at(6.0).motion.position) - carried(1.0).position).norm() < 1e-12);
     }
 }

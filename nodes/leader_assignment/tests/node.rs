@@ -7,6 +7,7 @@ use trench_config::{ConfigError, Parameters};
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
 use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState, TeamState};
 use trench_msgs::std_srvs::{TriggerRequest, TriggerResponse};
+use trench_msgs::visualization_msgs::MarkerArray;
 use trench_msgs::{Encode, Message};
 
 struct Shipped;
@@ -115,6 +116,24 @@ fn a_run_from_arm_to_stop() {
     assert!(bench.call("stop").success);
     let state: RunState = bench.last("/run_state").unwrap();
     assert_eq!(state.state, RunState::STOPPED);
+}
+
+#[test]
+fn viewers_are_shown_the_formation_and_who_follows_whom() {
+    let mut bench = Bench::new(100.0, None);
+    bench.see(RobotState::STATUS_TRACKED);
+    let shown = |bench: &Bench| -> Vec<(String, usize)> {
+        let markers = bench.last::<MarkerArray>("/markers").unwrap().markers;
+        assert!(markers.iter().all(|marker| marker.header.frame_id == "map" && marker.lifetime.sec > 0));
+        markers.into_iter().map(|marker| (marker.ns, marker.points.len())).collect()
+    };
+    let queues = ["formation/segments", "formation/vertices"].repeat(2);
+    let queues: Vec<_> = queues.into_iter().map(|namespace| (namespace.to_owned(), 2)).collect();
+    assert_eq!(shown(&bench), queues, "before anyone is assigned");
+    let bench = Bench::running();
+    let goals = ("formation/goals".to_owned(), 4);
+    let arrow = ("formation/leaders".to_owned(), 2);
+    assert_eq!(shown(&bench), [queues, vec![goals, arrow.clone(), arrow]].concat());
 }
 
 #[test]
