@@ -6,70 +6,15 @@
 
 #[expect(dead_code, reason = "the experiments use the rest")]
 mod support;
+#[path = "support/team.rs"]
+mod team;
 
 use trench_bag::run::Run;
 
-use std::fmt::Write;
 use support::{drive_file, random_poses, root};
+use team::{formation, launch_file, places};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
-use trench_sim::Random;
-
-/// Places at least this far from each other, m: bodies of 0.16 m and room to pass.
-const APART: f64 = 0.36;
-
-fn places(count: usize, seed: u64) -> Vec<[f64; 2]> {
-    let mut random = Random::new(seed, 97);
-    let mut places: Vec<[f64; 2]> = Vec::new();
-    while places.len() < count {
-        let place = [random.between(0.25, 2.2), random.between(0.25, 1.55)];
-        if places.iter().all(|other| libm::hypot(place[0] - other[0], place[1] - other[1]) > APART) {
-            places.push(place);
-        }
-    }
-    places
-}
-
-fn formation(places: &[[f64; 2]]) -> String {
-    let mut text = "name: anywhere\nframe: map\nqueues:\n".to_owned();
-    for (index, [x, y]) in places.iter().enumerate() {
-        let share = 1.0 / places.len() as f64;
-        let end = y + 0.1;
-        write!(
-            text,
-            "- name: place{index}\n  segment: {{kind: line, points: [[{x}, {y}], [{x}, {end}]]}}\n  \
-             vertices: [[{x}, {y}]]\n  share: {share}\n  tolerance: 0.02\n"
-        )
-        .unwrap();
-    }
-    text
-}
-
-fn launch_file(robots: usize, formation: &str, poses: &str) -> String {
-    let launch = root().join("launch");
-    let names: Vec<String> = (1..=robots).map(|robot| format!("robot{robot}")).collect();
-    let team = format!("[{}]", names.join(", "));
-    let mut text = format!(
-        "launch:\n\
-         - include:\n    file: \"{bed}\"\n    arg:\n    - {{name: robots, value: \"{team}\"}}\n    \
-         - {{name: poses, value: \"{poses}\"}}\n    - {{name: render, value: \"false\"}}\n\
-         - node:\n    exec: leader_assignment\n    name: leader_assignment\n    param:\n    \
-         - {{name: robots, value: {team}}}\n    - {{name: formation_file, value: \"{formation}\"}}\n\
-         - node:\n    exec: operator\n    name: operator\n    param:\n    - {{name: robots, value: {team}}}\n    \
-         - {{name: duration, value: 60.0}}\n",
-        bed = launch.join("bed.launch.yaml").display(),
-    );
-    for name in names {
-        write!(
-            text,
-            "- include:\n    file: \"{controller}\"\n    arg:\n    - {{name: robot, value: \"{name}\"}}\n    \
-             - {{name: robots, value: \"{team}\"}}\n",
-            controller = launch.join("controller.launch.yaml").display(),
-        )
-        .unwrap();
-    }
-    text
-}
 
 #[test]
 fn random_teams_arrive_without_contact() {
@@ -80,9 +25,10 @@ fn random_teams_arrive_without_contact() {
             let folder = tempfile::tempdir().unwrap();
             let (formation_path, launch_path) =
                 (folder.path().join("places.yaml"), folder.path().join("run.launch.yaml"));
-            std::fs::write(&formation_path, formation(&places(robots, seed))).unwrap();
+            std::fs::write(&formation_path, formation(&places(robots, [2.2, 1.55], seed))).unwrap();
             let poses = random_poses(robots, 1000 + seed);
-            let text = launch_file(robots, &formation_path.display().to_string(), &poses);
+            let text =
+                launch_file(robots, 60.0, &formation_path.display().to_string(), &poses, "bed", &[("render", "false")]);
             std::fs::write(&launch_path, text).unwrap();
             let finished = drive_file(&launch_path, &[]);
             let summary = summary(&finished.run, &SummaryOptions::default());
