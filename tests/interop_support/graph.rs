@@ -15,7 +15,7 @@ const NODES: [&str; 6] =
     ["/leader_assignment", "/obstacle_mapper", "/operator", "/overhead_localizer", "/rf_bridge", "/testbed"];
 
 /// Topic (`*` is each robot), type, publishers, subscribers.
-const TOPICS: [(&str, &str, &str, &str); 28] = [
+const TOPICS: [(&str, &str, &str, &str); 29] = [
     ("/overhead/image_raw", "sensor_msgs/msg/Image", "/testbed", "/overhead_localizer"),
     ("/overhead/camera_info", "sensor_msgs/msg/CameraInfo", "/testbed", ""),
     ("/ground_truth/*/odom", "nav_msgs/msg/Odometry", "/testbed", ""),
@@ -24,6 +24,7 @@ const TOPICS: [(&str, &str, &str, &str); 28] = [
     ("/*/odom", "nav_msgs/msg/Odometry", "/overhead_localizer", ""),
     ("/tf", "tf2_msgs/msg/TFMessage", "/overhead_localizer", ""),
     ("/target", "nav_msgs/msg/Odometry", "", "/leader_assignment"),
+    ("/set_formation", "trench_msgs/msg/Formation", "", "/leader_assignment"),
     ("/formation", "trench_msgs/msg/Formation", "/leader_assignment", "CONTROLLERS"),
     ("/assignment", "trench_msgs/msg/Assignment", "/leader_assignment", "CONTROLLERS"),
     ("/goals", "trench_msgs/msg/Goals", "/leader_assignment", "/operator CONTROLLERS"),

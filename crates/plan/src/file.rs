@@ -1,16 +1,11 @@
 //! Formation files.
 
-use crate::plan::{Frame, Motion, Place, Plan, QueuePlan};
+use crate::plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
+use crate::{MOST_ROBOTS, ON_SEGMENT, SHARES};
 use trench_config::ConfigError;
 use trench_config::yaml::{self, Map, Node};
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape};
-
-/// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
-const ON_SEGMENT: f64 = 1e-3;
-
-/// Shares may miss 1 by this much: rounding of thirds in the file.
-const SHARES: f64 = 0.005;
 
 /// Reads a formation file; `file` names it in errors.
 ///
@@ -69,8 +64,13 @@ fn queue(node: &Node) -> Result<QueuePlan, ConfigError> {
     if ends.is_empty() {
         return Err(vertices.error("a queue without a vertex", "give one or two points of the segment"));
     }
+    let chain = map.opt_node("chain").map(|node| Ok((node, chain(&node.map()?)?))).transpose()?;
     let starts = map.opt_node("starts").map(|node| Ok((node, on_curve(&curve, node)?))).transpose()?;
     let places = match starts {
+        None if chain.is_some() => chain_places(&curve, ends[0], chain)?,
+        Some((node, _)) if chain.is_some() => {
+            return Err(node.error("a chain has no starts", "leave out starts, or chain"));
+        }
         None => ends.iter().map(|&end| Place { start: end, end }).collect(),
         Some((node, starts)) if starts.len() != ends.len() => {
             let problem = format!("{} starts for {} vertices", starts.len(), ends.len());
@@ -85,10 +85,31 @@ fn queue(node: &Node) -> Result<QueuePlan, ConfigError> {
         vertices: points(vertices)?,
         share: share(&map)?,
         tolerance: not_negative(&map, "tolerance")?,
+        chain: chain.map(|(_, chain)| chain),
         places,
     };
     map.finish()?;
     Ok(plan)
+}
+
+fn chain(map: &Map<'_>) -> Result<ChainPlaces, ConfigError> {
+    let (robots, spacing) = (map.get::<i64>("robots")?, map.f64("spacing")?);
+    let robots = u32::try_from(robots).ok().filter(|robots| (1..=MOST_ROBOTS).contains(robots));
+    let remedy = format!("write 1 to {MOST_ROBOTS}");
+    let robots = robots.ok_or_else(|| map.error("robots", "is no number of robots", remedy))?;
+    if spacing <= 0.0 {
+        return Err(map.error("spacing", "leaves no room between robots", "write metres of segment, more than 0"));
+    }
+    map.finish()?;
+    Ok(ChainPlaces { robots, spacing })
+}
+
+fn chain_places(curve: &Curve, vertex: f64, chain: Option<(&Node, ChainPlaces)>) -> Result<Vec<Place>, ConfigError> {
+    let Some((node, chain)) = chain else { return Ok(Vec::new()) };
+    chain.along(curve, vertex).map_err(|room| {
+        let problem = format!("the chain does not fit: the segment is {room:.3} m long behind its first vertex");
+        node.error(problem, "take fewer robots, a smaller spacing, a longer segment, or open_start or open_end")
+    })
 }
 
 fn share(map: &Map<'_>) -> Result<f64, ConfigError> {

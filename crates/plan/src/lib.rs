@@ -4,11 +4,23 @@
 //! experiments like those of 4.6, the starts of the virtual points that move to the vertices.
 
 mod file;
+mod message;
 mod plan;
 mod sample;
+mod scale;
 mod segment;
 
 pub use file::parse;
-pub use plan::{Frame, Motion, Place, Plan, QueuePlan};
+pub use message::{FormationError, plan_from_message};
+pub use plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
 pub use sample::sampled;
 pub use segment::{SegmentError, curve_from_message, shape_from_message};
+
+/// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
+const ON_SEGMENT: f64 = 1e-3;
+
+/// Shares may miss 1 by this much: rounding of thirds in the file.
+const SHARES: f64 = 0.005;
+
+/// Robots of one chain, at most: a message that asks for more is a mistake.
+const MOST_ROBOTS: u32 = 10_000;

@@ -5,7 +5,7 @@
 
 use crate::RunMachine;
 use trench_core::RosTime;
-use trench_msgs::msg::{Assignment, RunState};
+use trench_msgs::msg::{Assignment, Formation, RunState};
 use trench_msgs::std_msgs::Header;
 use trench_msgs::{Encode, Message};
 
@@ -18,11 +18,21 @@ pub(crate) struct Checkpoint {
     pub(crate) written: RosTime,
     pub(crate) run: RunMachine,
     pub(crate) assignment: Option<Assignment>,
+    pub(crate) formation: Formation,
+    /// Hash of the formation that the process was started with.
+    pub(crate) configured: u64,
 }
 
-/// The state of a run as it goes into a file: two messages, each behind its length.
+/// The state of a run as it goes into a file: three messages and the hash of the first formation, each behind
+/// its length.
 #[must_use]
-pub(crate) fn write(now: RosTime, run: &RunMachine, assignment: Option<&Assignment>) -> Vec<u8> {
+pub(crate) fn write(
+    now: RosTime,
+    run: &RunMachine,
+    assignment: Option<&Assignment>,
+    formation: &Formation,
+    configured: u64,
+) -> Vec<u8> {
     let state = RunState {
         header: Header { stamp: now.into(), frame_id: String::new() },
         state: run.state(),
@@ -31,7 +41,8 @@ pub(crate) fn write(now: RosTime, run: &RunMachine, assignment: Option<&Assignme
         ..RunState::default()
     };
     let mut bytes = Vec::new();
-    for cdr in [state.to_cdr(), assignment.map(Encode::to_cdr).unwrap_or_default()] {
+    let assignment = assignment.map(Encode::to_cdr).unwrap_or_default();
+    for cdr in [state.to_cdr(), assignment, formation.to_cdr(), configured.to_le_bytes().to_vec()] {
         bytes.extend_from_slice(&(cdr.len() as u32).to_le_bytes());
         bytes.extend_from_slice(&cdr);
     }
@@ -43,6 +54,8 @@ pub(crate) fn write(now: RosTime, run: &RunMachine, assignment: Option<&Assignme
 pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let (state, rest) = part(bytes)?;
     let (assignment, rest) = part(rest)?;
+    let (formation, rest) = part(rest)?;
+    let (configured, rest) = part(rest)?;
     if !rest.is_empty() {
         return None;
     }
@@ -50,7 +63,9 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let t0 = RosTime::from(&state.t0);
     let run = RunMachine::resume(state.state, (t0.0 != 0).then_some(t0), state.reason.clone());
     let assignment = if assignment.is_empty() { None } else { Some(Assignment::decode(assignment).ok()?) };
-    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment })
+    let formation = Formation::decode(formation).ok()?;
+    let configured = u64::from_le_bytes(configured.try_into().ok()?);
+    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment, formation, configured })
 }
 
 fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
@@ -72,14 +87,16 @@ mod tests {
         let assignment = Assignment { epoch: 7, ..Default::default() };
         let written = RosTime(9_000_000_000);
         for assignment in [Some(assignment), None] {
-            let bytes = write(written, &run, assignment.as_ref());
-            assert_eq!(read(&bytes), Some(Checkpoint { written, run: run.clone(), assignment }));
+            let formation = Formation { hash: 3, ..Default::default() };
+            let bytes = write(written, &run, assignment.as_ref(), &formation, 9);
+            let expected = Checkpoint { written, run: run.clone(), assignment, formation, configured: 9 };
+            assert_eq!(read(&bytes), Some(expected));
         }
     }
 
     #[test]
     fn damage_is_noticed() {
-        let bytes = write(RosTime(0), &RunMachine::default(), None);
+        let bytes = write(RosTime(0), &RunMachine::default(), None, &Formation::default(), 9);
         for length in 0..bytes.len() {
             assert_eq!(read(&bytes[..length]), None, "cut to {length}");
         }

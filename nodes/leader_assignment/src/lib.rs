@@ -5,18 +5,27 @@
 //! | formation file to queues | `trench_plan` | Definition 2.1.1 |
 //! | robots to places, chains | [`organise`] | 2.1, 6.2.1 |
 //! | goal points | [`virtual_point`] | 4.6 |
+//! | the formation's frame | [`Target`] | 2.1: formations move with the target |
 //! | markers | `markers` | for RViz2 and Foxglove |
 //! | run state | [`RunMachine`] | services arm, start, stop, reset |
 
+mod assign;
+mod carrier;
 mod checkpoint;
 mod core;
+mod held;
 mod markers;
 mod organise;
 mod run_machine;
+mod services;
 mod settings;
+mod target;
+mod tick;
 mod virtual_point;
 
 pub use crate::core::{LeaderAssignment, description};
+pub use carrier::Carrier;
 pub use organise::{OrganiseError, Seated, organise};
 pub use run_machine::{Request, RunMachine, state_name};
-pub use virtual_point::{Carrier, VirtualPoint, virtual_point};
+pub use target::{Target, TargetLimits, TargetRefusal};
+pub use virtual_point::{VirtualPoint, virtual_point};

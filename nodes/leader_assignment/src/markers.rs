@@ -1,7 +1,7 @@
 //! The formation as RViz2 and Foxglove draw it: segments, vertices, goal points, an arrow from each robot to the one ahead
 //! of it in the chain.
 
-use crate::virtual_point::Carrier;
+use crate::Carrier;
 use trench_core::duration_from_seconds;
 use trench_formation::Vector2;
 use trench_msgs::builtin_interfaces::Time;

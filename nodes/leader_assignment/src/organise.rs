@@ -133,7 +133,11 @@ fn seated_chain(
     let mut seated = Vec::with_capacity(team.len());
     for (index, robot) in chain.names().iter().enumerate() {
         let next = leader.replace(robot.clone());
-        let place = places.get(robot.as_str()).copied().unwrap_or_default();
+        // In a chain the rank is the place: nobody overtakes to a place further ahead.
+        let place = match plan.queues[queue].chain {
+            Some(_) => index,
+            None => places.get(robot.as_str()).copied().unwrap_or_default(),
+        };
         seated.push(Seated { robot: robot.clone(), queue, place, rank: index + 1, leader: next });
     }
     Ok(seated)

@@ -49,68 +49,10 @@ fn rest(phase: u8, position: Vector2<f64>) -> VirtualPoint {
     VirtualPoint { phase, motion: GoalMotion::at_rest(position), remaining: f64::MAX }
 }
 
-/// Where the formation's frame is and how it moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Carrier {
-    /// Position of its origin, m, map.
-    pub position: Vector2<f64>,
-    /// Its direction, rad.
-    pub theta: f64,
-    /// m/s, map.
-    pub velocity: Vector2<f64>,
-    /// rad/s.
-    pub omega: f64,
-}
-
-impl Carrier {
-    /// The map itself.
-    pub const MAP: Self =
-        Self { position: Vector2::new(0.0, 0.0), theta: 0.0, velocity: Vector2::new(0.0, 0.0), omega: 0.0 };
-
-    /// A point of the map as the formation's frame sees it.
-    #[must_use]
-    pub fn from_map(&self, point: Vector2<f64>) -> Vector2<f64> {
-        rotated(point - self.position, -self.theta)
-    }
-
-    /// A point of the formation's frame as the map sees it.
-    #[must_use]
-    pub fn to_map(&self, point: Vector2<f64>) -> Vector2<f64> {
-        self.position + rotated(point, self.theta)
-    }
-}
-
-impl VirtualPoint {
-    /// The point in the map, carried along by the formation's frame: its own motion, the frame's, and Coriolis'.
-    #[must_use]
-    pub fn carried(self, by: &Carrier) -> Self {
-        if *by == Carrier::MAP {
-            return self;
-        }
-        let arm = rotated(self.motion.position, by.theta);
-        let own = rotated(self.motion.velocity, by.theta);
-        let motion = GoalMotion {
-            position: by.position + arm,
-            velocity: by.velocity + by.omega * left(arm) + own,
-            acceleration: rotated(self.motion.acceleration, by.theta) + 2.0 * by.omega * left(own)
-                - by.omega * by.omega * arm,
-        };
-        Self { motion, ..self }
-    }
-}
-
-fn rotated(vector: Vector2<f64>, angle: f64) -> Vector2<f64> {
-    let (sin, cos) = libm::sincos(angle);
-    Vector2::new(cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y)
-}
-
-fn left(vector: Vector2<f64>) -> Vector2<f64> {
-    Vector2::new(-vector.y, vector.x)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Carrier;
     use trench_formation::curve::CurveShape;
 
     fn line() -> Curve {
@@ -152,6 +94,7 @@ mod tests {
             position: Vector2::new(0.3 * time, 0.1),
             theta: 0.2 * time,
             velocity: Vector2::new(0.3, 0.0),
+            acceleration: Vector2::zeros(),
             omega: 0.2,
         };
         let carried = |time: f64| at(5.0 + time).carried(&carrier(time)).motion;

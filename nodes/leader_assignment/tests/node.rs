@@ -5,7 +5,9 @@ use leader_assignment::description;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
-use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState, TeamState};
+use trench_msgs::msg::{
+    Assignment, Formation, Goal, Goals, RobotState, RunState, SetFormationRequest, SetFormationResponse, TeamState,
+};
 use trench_msgs::std_srvs::{TriggerRequest, TriggerResponse};
 use trench_msgs::visualization_msgs::MarkerArray;
 use trench_msgs::{Encode, Message};
@@ -60,6 +62,26 @@ impl Bench {
             _ => None,
         });
         answer.unwrap()
+    }
+
+    fn set_formation(&mut self, name: &str, scale: f64, robots: &[&str]) -> SetFormationResponse {
+        let service =
+            self.core.interface().services.iter().position(|serve| serve.name.ends_with("set_formation")).unwrap();
+        self.out.take();
+        let robots = robots.iter().map(|robot| (*robot).to_owned()).collect();
+        let cdr = SetFormationRequest { name: name.to_owned(), scale, robots }.to_cdr();
+        self.handle(Event::Request { service, id: RequestId(1), cdr: &cdr });
+        let answer = self.out.actions.iter().find_map(|action| match action {
+            Action::Respond { cdr, .. } => Some(SetFormationResponse::decode(cdr).unwrap()),
+            _ => None,
+        });
+        answer.unwrap()
+    }
+
+    fn send(&mut self, topic: &str, message: &dyn Encode) {
+        let port = self.core.interface().subscriptions.iter().position(|subscribe| subscribe.topic == topic).unwrap();
+        let cdr = message.to_cdr();
+        self.handle(Event::Message { port, source: Default::default(), cdr: &cdr });
     }
 
     fn see(&mut self, status: u8) {
@@ -225,4 +247,87 @@ fn what_cannot_be_is_refused_at_start() {
     let twice = ("robots", "[robot1, robot2, robot1]");
     assert!(refused(&[FILE, twice]).contains("two robots have the name robot1"));
     assert!(refused(&[("formation_file", "nowhere.yaml"), ROBOTS]).contains("formation_file"));
+}
+
+#[test]
+fn the_formation_changes_while_running_in_size_and_number() {
+    let mut bench = Bench::running();
+    let before: Formation = {
+        let fresh = Bench::new(0.0, None);
+        fresh.last("/formation").unwrap()
+    };
+    let answer = bench.set_formation("", 0.5, &["robot1", "robot2", "robot3"]);
+    assert!(answer.success, "{answer:?}");
+    let formation: Formation = bench.last("/formation").unwrap();
+    let assignment: Assignment = bench.last("/assignment").unwrap();
+    assert_ne!(formation.hash, before.hash);
+    assert_eq!((assignment.formation_hash, assignment.epoch, assignment.members.len()), (formation.hash, 2, 3));
+    bench.seconds += 0.1;
+    bench.see(RobotState::STATUS_TRACKED);
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert_eq!((goals.epoch, goals.goals.len()), (2, 3));
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_APPROACH), "the new one sets out now");
+    let again = bench.set_formation("", 0.0, &[]);
+    assert!(again.success && again.message.contains("already"), "{again:?}");
+    assert!(bench.last::<Assignment>("/assignment").is_none(), "nothing flaps");
+    let state: RunState = Bench::running().last("/run_state").unwrap();
+    assert_eq!(state.state, RunState::RUNNING);
+}
+
+#[test]
+fn a_formation_that_does_not_fit_is_refused_and_the_old_one_stays() {
+    let mut bench = Bench::running();
+    let mut refused = |name, scale, robots: &[&str], expected: &str| {
+        let answer = bench.set_formation(name, scale, robots);
+        assert!(!answer.success && answer.message.contains(expected), "{answer:?}");
+        assert!(bench.last::<Formation>("/formation").is_none());
+    };
+    refused("star", 0.0, &[], "no formation is called star; there are square");
+    refused("", -1.0, &[], "scale is -1");
+    refused("", f64::NAN, &[], "scale is NaN");
+    refused("", 0.0, &["robot1", "robot9"], "robot9 is none of the robots");
+    refused("", 0.0, &["robot1", "robot1"], "robot1 is named twice");
+    refused("", 0.0, &["robot1", "robot1"], "stays as it is");
+    bench.see(RobotState::STATUS_TRACKED);
+    assert_eq!(bench.last::<Goals>("/goals").unwrap().goals.len(), 4);
+}
+
+#[test]
+fn a_formation_larger_than_the_field_is_refused() {
+    let field = ("field", "[0.0, 0.0, 2.48, 1.83]");
+    let mut bench = Bench { core: make(&[FILE, ROBOTS, field], None).unwrap(), out: Outbox::default(), seconds: 1.0 };
+    bench.handle(Event::Started);
+    let answer = bench.set_formation("", 2.0, &[]);
+    assert!(!answer.success && answer.message.contains("outside the field"), "{answer:?}");
+    let small = ("field", "[0.0, 0.0, 1.0, 1.0]");
+    assert!(make(&[FILE, ROBOTS, small], None).map(drop).unwrap_err().contains("outside the field"));
+}
+
+#[test]
+fn a_formation_may_come_as_a_message() {
+    let mut bench = Bench::running();
+    let mut formation: Formation = Bench::new(0.0, None).last("/formation").unwrap();
+    formation.queues[0].tolerance = 0.05;
+    bench.out.take();
+    bench.send("/set_formation", &formation);
+    let now: Formation = bench.last("/formation").unwrap();
+    assert_eq!(now.queues[0].tolerance, 0.05);
+    assert_ne!(now.hash, formation.hash, "the hash is of the content, whatever the sender wrote");
+    formation.queues.clear();
+    bench.out.take();
+    bench.send("/set_formation", &formation);
+    assert!(bench.last::<Formation>("/formation").is_none(), "a formation without segments changes nothing");
+}
+
+#[test]
+fn a_changed_formation_outlives_the_process() {
+    let mut died = Bench::running();
+    assert!(died.set_formation("", 0.5, &["robot1", "robot2", "robot3"]).success);
+    let held: Formation = died.last("/formation").unwrap();
+    died.seconds += 1.0;
+    died.handle(Event::Wakeup);
+    let again = Bench::new(died.seconds + 1.0, Some(died.checkpoint()));
+    assert_eq!(again.last::<Formation>("/formation").unwrap().hash, held.hash);
+    assert_eq!(again.last::<Assignment>("/assignment").unwrap().members.len(), 3);
+    assert_eq!(again.last::<RunState>("/run_state").unwrap().state, RunState::RUNNING);
 }

@@ -1,0 +1,127 @@
+//! What an operator may ask for: the steps of a run, and another formation.
+
+use crate::core::{FORMATION, LeaderAssignment};
+use crate::held::Held;
+use crate::settings::{admit_robots, within_field};
+use crate::{Request, organise};
+use trench_core::{Condition, Level, RequestId, RosTime, Sink, Times};
+use trench_formation::Vector2;
+use trench_msgs::Message;
+use trench_msgs::msg::Formation;
+use trench_msgs::msg::{SetFormationRequest, SetFormationResponse};
+use trench_msgs::std_srvs::TriggerResponse;
+use trench_plan::{Plan, plan_from_message};
+
+/// In the order of the services: ~/arm, ~/start, ~/stop, ~/reset; ~/set_formation follows.
+const REQUESTS: [Request; 4] = [Request::Arm, Request::Start, Request::Stop, Request::Reset];
+
+/// Formations are made larger or smaller by this much at most.
+const MOST_SCALE: f64 = 100.0;
+
+impl LeaderAssignment {
+    pub(crate) fn serve(&mut self, at: Times, (service, id): (usize, RequestId), cdr: &[u8], sink: &mut dyn Sink) {
+        if let Some(&request) = REQUESTS.get(service) {
+            let response = self.request(at, request, sink);
+            sink.respond(service, id, &response);
+            return;
+        }
+        let answer = match SetFormationRequest::decode(cdr) {
+            Ok(request) => self.chosen(&request).and_then(|held| self.hold(at, held, sink)),
+            Err(error) => Err(error.to_string()),
+        };
+        let response = self.told(answer, sink);
+        sink.respond(service, id, &response);
+    }
+
+    fn request(&mut self, at: Times, request: Request, sink: &mut dyn Sink) -> TriggerResponse {
+        if !self.run.running() {
+            self.target.forget_if_silent(at.steady);
+        }
+        let ready = self.ready();
+        let answer = self.run.request(request, ready);
+        if answer.is_ok() {
+            if matches!(request, Request::Arm | Request::Start) {
+                self.held.since = None;
+                self.assign(at, sink);
+            }
+            self.announce(at, sink);
+        }
+        let (success, message) = match answer {
+            Ok(message) => (true, message),
+            Err(message) => (false, message),
+        };
+        sink.log(Level::Info, &format!("{request:?}: {message}"));
+        TriggerResponse { success, message }
+    }
+
+    /// Somebody sent a formation to hold from now on.
+    pub(crate) fn formation_asked(&mut self, at: Times, message: &Formation, sink: &mut dyn Sink) {
+        let answer = match plan_from_message(message) {
+            Ok(plan) => self.hold(at, (plan, self.held.robots.clone()), sink),
+            Err(error) => Err(error.to_string()),
+        };
+        self.told(answer, sink);
+    }
+
+    /// The formation that a request means, with its robots.
+    fn chosen(&self, request: &SetFormationRequest) -> Result<(Plan, Vec<String>), String> {
+        let named = |name: &str| {
+            let known = || self.settings.library.iter().map(|plan| plan.name.as_str()).collect::<Vec<_>>().join(", ");
+            let plan = self.settings.library.iter().find(|plan| plan.name == name);
+            plan.ok_or_else(|| format!("no formation is called {name}; there are {}", known()))
+        };
+        let plan = if request.name.is_empty() { &self.held.plan } else { named(&request.name)? };
+        let scale = if request.scale == 0.0 { 1.0 } else { request.scale };
+        if !(scale.is_finite() && scale > 0.0 && scale <= MOST_SCALE) {
+            return Err(format!("scale is {scale}: write a factor above 0, up to {MOST_SCALE}"));
+        }
+        let plan = plan.scaled(scale).map_err(|error| format!("{} times {scale}: {error}", plan.name))?;
+        let robots = if request.robots.is_empty() { self.held.robots.clone() } else { request.robots.clone() };
+        Ok((plan, admit_robots(&robots, &self.settings.robots)?))
+    }
+
+    /// Puts a formation into force, if it fits.
+    fn hold(&mut self, at: Times, (plan, robots): (Plan, Vec<String>), sink: &mut dyn Sink) -> Result<String, String> {
+        if robots.len() > plan.places() {
+            return Err(format!("{} robots, but {} has {} places", robots.len(), plan.name, plan.places()));
+        }
+        within_field(&plan, &self.settings.field)?;
+        let missing = self.unlocalised(&robots);
+        if self.run.running() && !missing.is_empty() {
+            return Err(format!("not localised: {}", missing.join(", ")));
+        }
+        let mut held = Held::new(plan, robots);
+        if held.message.hash == self.held.message.hash && held.robots == self.held.robots {
+            return Ok(format!("{} is in force already", held.plan.name));
+        }
+        held.since = self.run.running().then_some(at.ros);
+        // Positions that make no assignment are refused before anything changes.
+        let known: Vec<(String, Vector2<f64>)> = self.positions(&held, at).unwrap_or_default();
+        organise(&held.plan, &known, &self.seats, self.settings.keep_margin).map_err(|error| error.to_string())?;
+        let text = format!("{} with {} robots is in force", held.plan.name, held.robots.len());
+        self.held = held;
+        sink.publish(FORMATION, &self.held.stamped(at.ros));
+        if self.assignment.is_some() {
+            self.assign(at, sink);
+        }
+        self.announce(at, sink);
+        Ok(text)
+    }
+
+    fn told(&mut self, answer: Result<String, String>, sink: &mut dyn Sink) -> SetFormationResponse {
+        let (success, message) = match answer {
+            Ok(message) => (true, message),
+            Err(message) => (false, format!("the formation stays as it is: {message}")),
+        };
+        let (condition, level) = if success { (Condition::Ok, Level::Info) } else { (Condition::Warn, Level::Warn) };
+        self.health.set("formation", condition, message.clone());
+        sink.log(level, &message);
+        SetFormationResponse { success, message }
+    }
+
+    /// Seconds for which the present formation has been moving: since t0, or since it replaced another one.
+    pub(crate) fn elapsed(&self, stamp: RosTime) -> f64 {
+        let began = self.run.t0().map(|t0| self.held.since.map_or(t0, |since| since.max(t0)));
+        began.map_or(0.0, |began| stamp.seconds_since(began))
+    }
+}
