@@ -99,8 +99,7 @@ fn queue_from_message(queue: &Queue, total: f64) -> Result<QueuePlan, FormationE
     let mut ends = Vec::new();
     for vertex in &vertices {
         let foot = curve.nearest(*vertex);
-        // Written so that a vertex that is no number is refused too.
-        if !(foot.distance <= ON_SEGMENT) {
+        if foot.distance.is_nan() || foot.distance > ON_SEGMENT {
             return Err(FormationError::Vertex { queue: name(), distance: foot.distance });
         }
         ends.push(foot.arc_length);
