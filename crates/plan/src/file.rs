@@ -1,11 +1,12 @@
 //! Formation files.
 
+use crate::expression::expression;
 use crate::plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
 use crate::{MOST_ROBOTS, ON_SEGMENT, SHARES};
 use trench_config::ConfigError;
 use trench_config::yaml::{self, Map, Node};
 use trench_formation::Vector2;
-use trench_formation::curve::{Curve, CurveShape};
+use trench_formation::curve::{Curve, CurveError, CurveShape};
 
 /// Reads a formation file; `file` names it in errors.
 ///
@@ -153,17 +154,31 @@ fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
             wavelength: map.f64("wavelength")?,
             phase: map.opt_f64("phase")?.unwrap_or(0.0),
         },
+        "graph" => {
+            let function = expression(map.node("expression")?)?;
+            CurveShape::Graph { function, from: map.f64("from")?, to: map.f64("to")? }
+        }
         _ => {
-            let remedy = "write line, polyline, spline, bezier, arc, ellipse or sinusoid";
+            let remedy = "write line, polyline, spline, bezier, arc, ellipse, sinusoid or graph";
             return Err(map.node("kind")?.error("is no kind of segment", remedy));
         }
     };
     let open = |key| Ok::<_, ConfigError>(map.opt::<bool>(key)?.unwrap_or(false));
     let (open_start, open_end) = (open("open_start")?, open("open_end")?);
     map.finish()?;
-    let curve =
-        Curve::new(&shape, open_start, open_end).map_err(|error| node.error(error.to_string(), "mend the segment"))?;
+    let curve = Curve::new(&shape, open_start, open_end).map_err(|error| refused(&map, &error))?;
     Ok((shape, curve))
+}
+
+/// The error about a segment, at the expression if that is to blame.
+fn refused(map: &Map<'_>, error: &CurveError) -> ConfigError {
+    match error {
+        CurveError::NotSmooth { problem, x, cause, column, remedy, .. } => {
+            map.error("expression", format!("{problem} at x = {x} (`{cause}` at column {column})"), *remedy)
+        }
+        CurveError::Range { .. } => map.error("to", error.to_string(), "write a greater one"),
+        _ => map.as_node().error(error.to_string(), "mend the segment"),
+    }
 }
 
 /// Arc lengths of the points of a list, all of which must lie on the curve.

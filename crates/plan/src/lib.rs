@@ -3,6 +3,7 @@
 //! A formation file names queues Q = (S, X, C, epsilon) of Definition 2.1.1: segment, vertices, share, tolerance; and, for
 //! experiments like those of 4.6, the starts of the virtual points that move to the vertices.
 
+mod expression;
 mod file;
 mod message;
 mod plan;
@@ -10,6 +11,7 @@ mod sample;
 mod scale;
 mod segment;
 
+pub use expression::{expression, expression_remedy};
 pub use file::parse;
 pub use message::{FormationError, plan_from_message};
 pub use plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};

@@ -20,7 +20,7 @@ impl Plan {
 impl QueuePlan {
     fn scaled(&self, factor: f64) -> Result<Self, CurveError> {
         let (from, to) = self.curve.domain();
-        let shape = scaled_shape(&self.shape, factor);
+        let shape = scaled_shape(&self.shape, factor)?;
         let curve = Curve::new(&shape, from.is_infinite(), to.is_infinite())?;
         let place = |place: &Place| Place { start: factor * place.start, end: factor * place.end };
         Ok(Self {
@@ -34,9 +34,9 @@ impl QueuePlan {
     }
 }
 
-fn scaled_shape(shape: &CurveShape, factor: f64) -> CurveShape {
+fn scaled_shape(shape: &CurveShape, factor: f64) -> Result<CurveShape, CurveError> {
     let all = |points: &[Vector2<f64>]| points.iter().map(|point| factor * point).collect();
-    match shape {
+    Ok(match shape {
         CurveShape::Line(from, to) => CurveShape::Line(factor * from, factor * to),
         CurveShape::Polyline(points) => CurveShape::Polyline(all(points)),
         CurveShape::Spline(points) => CurveShape::Spline(all(points)),
@@ -55,5 +55,8 @@ fn scaled_shape(shape: &CurveShape, factor: f64) -> CurveShape {
             wavelength: factor * wavelength,
             phase,
         },
-    }
+        CurveShape::Graph { function, from, to } => {
+            CurveShape::Graph { function: function.scaled(factor)?, from: factor * from, to: factor * to }
+        }
+    })
 }

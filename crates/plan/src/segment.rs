@@ -1,5 +1,6 @@
 //! `trench_msgs/Segment` to the theory's curve and back.
 
+use trench_expression::{Expression, ExpressionError};
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveError, CurveShape};
 use trench_msgs::msg::{Point2, Segment};
@@ -21,6 +22,9 @@ pub enum SegmentError {
     /// The curve itself is impossible.
     #[error(transparent)]
     Curve(#[from] CurveError),
+    /// The expression is none.
+    #[error("the expression {0}")]
+    Expression(#[from] ExpressionError),
 }
 
 /// The curve of a segment message.
@@ -58,6 +62,10 @@ pub fn shape_from_message(segment: &Segment) -> Result<CurveShape, SegmentError>
         (Segment::KIND_SINUSOID, ..) => {
             Err(incomplete("an origin, a direction, a length, an amplitude, a wavelength and a phase"))
         }
+        (Segment::KIND_GRAPH, _, &[from, to]) => {
+            Ok(CurveShape::Graph { function: Expression::parse(&segment.expression)?, from, to })
+        }
+        (Segment::KIND_GRAPH, ..) => Err(incomplete("an expression, the first x and the last x")),
         (kind, ..) => Err(SegmentError::Kind(kind)),
     }
 }
@@ -78,9 +86,14 @@ pub(crate) fn message_from_shape(shape: &CurveShape, open_start: bool, open_end:
         &CurveShape::Sinusoid { origin, direction, length, amplitude, wavelength, phase } => {
             (Segment::KIND_SINUSOID, vec![origin], vec![direction, length, amplitude, wavelength, phase])
         }
+        &CurveShape::Graph { from, to, .. } => (Segment::KIND_GRAPH, vec![], vec![from, to]),
     };
     let points = points.iter().map(|point| Point2 { x: point.x, y: point.y }).collect();
-    Segment { kind, points, values, expression: String::new(), open_start, open_end }
+    let expression = match shape {
+        CurveShape::Graph { function, .. } => function.source().to_owned(),
+        _ => String::new(),
+    };
+    Segment { kind, points, values, expression, open_start, open_end }
 }
 
 #[cfg(test)]
@@ -105,6 +118,7 @@ mod tests {
                 wavelength: 1.0,
                 phase: 0.4,
             },
+            CurveShape::Graph { function: Expression::parse("0.3*sin(2*x)").unwrap(), from: -1.0, to: 2.0 },
         ];
         for shape in shapes {
             let message = message_from_shape(&shape, false, false);
@@ -122,6 +136,17 @@ mod tests {
         check(
             Segment { kind: Segment::KIND_ARC, ..Segment::default() },
             "a segment of kind 2 needs a centre, a radius, a start angle and a sweep",
+        );
+        let graph = |expression: &str| Segment {
+            kind: Segment::KIND_GRAPH,
+            values: vec![0.0, 1.0],
+            expression: expression.to_owned(),
+            ..Segment::default()
+        };
+        check(graph("2 x"), "the expression does not parse at column 3: found `x`, expected an operator or the end");
+        check(
+            Segment { values: vec![], ..graph("x") },
+            "a segment of kind 7 needs an expression, the first x and the last x",
         );
         check(Segment { kind: 99, ..Segment::default() }, "segment kind 99 is unknown");
     }

@@ -107,3 +107,48 @@ fn wrong_types_and_kinds() {
     let error = refused("approach: 3.0", "approach: -3.0");
     assert!(error.contains("is negative"), "{error}");
 }
+
+#[test]
+fn a_graph_is_a_segment() {
+    let graph = "{kind: graph, expression: \"0.5 + 0.1*(x - 1)^2\", from: 0.0, to: 2.0}";
+    let line = "{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}";
+    let text =
+        GOOD.replace(line, graph).replace("[0.5, 0.5]]", "[0.5, 0.525]]").replace("[1.5, 0.5]]", "[1.5, 0.525]]");
+    let plan = parse("pair.yaml", &text).unwrap();
+    let message = plan.message(Default::default());
+    let segment = &message.queues[0].segment;
+    assert_eq!(segment.expression, "0.5 + 0.1*(x - 1)^2");
+    assert_eq!(trench_plan::curve_from_message(segment).unwrap(), plan.queues[0].curve);
+    let refused = |from: &str, to: &str| parse("pair.yaml", &text.replace(from, to)).unwrap_err().to_string();
+    let check = |from: &str, to: &str, expected: &str| assert_eq!(refused(from, to), expected);
+    check(
+        "0.1*(x - 1)^2",
+        "0.1 (x",
+        "pair.yaml:6: queues[0].segment.expression = \"0.5 + 0.1 (x\": does not parse at column 11: found `(`, expected \
+         an operator or the end; write it like 0.5*sin(2*pi*x/3)",
+    );
+    check(
+        "(x - 1)^2",
+        "sinn(x)",
+        "pair.yaml:6: queues[0].segment.expression = \"0.5 + 0.1*sinn(x)\": `sinn` at column 11 is unknown; did you mean \
+         `sin`?",
+    );
+    check(
+        "(x - 1)^2",
+        "abs(x - 1)",
+        "pair.yaml:6: queues[0].segment.expression = \"0.5 + 0.1*abs(x - 1)\": is not twice differentiable at x = 1 \
+         (`abs` at column 11); end the segment there and begin another, or round the corner off",
+    );
+    check(
+        "(x - 1)^2",
+        "/(x - 1)",
+        "pair.yaml:6: queues[0].segment.expression = \"0.5 + 0.1*/(x - 1)\": does not parse at column 11: found `/`, \
+         expected `(`, a name or a number; write it like 0.5*sin(2*pi*x/3)",
+    );
+    check(
+        "to: 2.0",
+        "to: 0.0",
+        "pair.yaml:6: queues[0].segment.to = 0.0: the graph goes from x = 0 to x = 0, but must \
+                                go to a greater x; write a greater one",
+    );
+}

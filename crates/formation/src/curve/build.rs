@@ -1,12 +1,13 @@
 //! From a description to primitives and pieces.
 use super::{
-    Curve, box_tree::BoxTree, error::CurveError, piece::cut, primitive::Primitive, shape::CurveShape, simple, spline,
+    Curve, box_tree::BoxTree, error::CurveError, graph, piece::cut, primitive::Primitive, shape::CurveShape, simple,
+    spline,
 };
 use core::f64::consts::TAU;
 use nalgebra::Vector2;
 
 /// A primitive and its parameter interval.
-type Span = (Primitive, (f64, f64));
+pub(super) type Span = (Primitive, (f64, f64));
 
 impl Curve {
     /// Builds the curve. `open_start` and `open_end` let it extend beyond its first and last point along the tangent
@@ -63,6 +64,7 @@ fn spans(shape: &CurveShape) -> Result<(Vec<Span>, bool), CurveError> {
             let phase = finite("the phase", phase)?;
             Ok((vec![(Primitive::Sinusoid { origin, along, across, wave_number, phase }, (0.0, length))], false))
         }
+        CurveShape::Graph { function, from, to } => graph::primitive(function, *from, *to),
     }
 }
 
@@ -117,7 +119,7 @@ fn all_finite(what: &'static str, points: &[Vector2<f64>]) -> Result<(), CurveEr
     points.iter().try_for_each(|point| finite(what, point.x + point.y).map(drop))
 }
 
-fn finite(what: &'static str, value: f64) -> Result<f64, CurveError> {
+pub(super) fn finite(what: &'static str, value: f64) -> Result<f64, CurveError> {
     if value.is_finite() { Ok(value) } else { Err(CurveError::NotFinite { what }) }
 }
 

@@ -42,6 +42,33 @@ pub enum CurveError {
         /// Distance along the curve, metres.
         arc_length: f64,
     },
+    /// y = f(x) over a range of no length.
+    #[error("the graph goes from x = {from} to x = {to}, but must go to a greater x")]
+    Range {
+        /// First x.
+        from: f64,
+        /// Last x.
+        to: f64,
+    },
+    /// f is not twice differentiable (Definition 2.1.2 asks for it) on all of its range.
+    #[error("y = {expression} {problem} at x = {x} ({cause} at column {column}): {remedy}")]
+    NotSmooth {
+        /// f.
+        expression: String,
+        /// What is wrong.
+        problem: &'static str,
+        /// Where, m.
+        x: f64,
+        /// What in f causes it.
+        cause: &'static str,
+        /// Where that stands in f, from 1.
+        column: usize,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The expression of a graph cannot be written larger or smaller.
+    #[error("the expression {0}")]
+    Expression(#[from] trench_expression::ExpressionError),
     /// The curve meets itself, so arc length along it does not order robots.
     #[error(
         "the curve meets itself after {first} m and after {second} m: move the points between, or split it into two \

@@ -5,6 +5,7 @@ mod box_tree;
 mod build;
 mod encroachment;
 mod error;
+mod graph;
 mod minimum;
 mod nearest;
 mod piece;

@@ -1,5 +1,6 @@
 //! The analytic pieces that curves are made of: value, derivatives, and bounds on the derivatives.
 use nalgebra::Vector2;
+use trench_expression::Expression;
 
 /// Position and its first two derivatives by the primitive's own parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +21,8 @@ pub(super) enum Primitive {
     Cubic { coefficients: [Vector2<f64>; 4] },
     /// origin + u along + across sin(k u + phase), `across` holding the amplitude.
     Sinusoid { origin: Vector2<f64>, along: Vector2<f64>, across: Vector2<f64>, wave_number: f64, phase: f64 },
+    /// (u, f(u)), for u between two bounds within which f is twice differentiable.
+    Graph { function: Expression, domain: (f64, f64) },
 }
 
 impl Primitive {
@@ -53,6 +56,14 @@ impl Primitive {
                     second: -wave_number * wave_number * s * across,
                 }
             }
+            Self::Graph { ref function, .. } => {
+                let series = function.series::<f64, 3>(u);
+                Jet {
+                    point: Vector2::new(u, series.0[0]),
+                    first: Vector2::new(1.0, series.0[1]),
+                    second: Vector2::new(0.0, 2.0 * series.0[2]),
+                }
+            }
         }
     }
 
@@ -71,6 +82,11 @@ impl Primitive {
             Self::Sinusoid { across, wave_number, .. } => {
                 let second = across.norm() * wave_number * wave_number;
                 (second, second * wave_number)
+            }
+            Self::Graph { function, domain: (from, to) } => {
+                let ends = ((u - half_width).max(*from), (u + half_width).min(*to));
+                let series = function.enclosure::<4>(ends.0, ends.1);
+                (2.0 * series.0[2].magnitude(), 6.0 * series.0[3].magnitude())
             }
         }
     }

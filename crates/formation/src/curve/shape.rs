@@ -1,5 +1,6 @@
 //! What a person writes down to define a curve.
 use nalgebra::Vector2;
+use trench_expression::Expression;
 
 /// Description of a curve, in the formation's frame; metres and radians.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,5 +47,14 @@ pub enum CurveShape {
         wavelength: f64,
         /// Phase at the origin, rad.
         phase: f64,
+    },
+    /// y = f(x) for from <= x <= to, f twice differentiable there.
+    Graph {
+        /// f.
+        function: Expression,
+        /// The least x, m.
+        from: f64,
+        /// The greatest x, m.
+        to: f64,
     },
 }
