@@ -67,6 +67,26 @@ impl Expression {
         Ok(Self { source: text.into(), steps: compiler.steps.into() })
     }
 
+    /// The function whose graph is this one's, larger by `factor`: factor f(x / factor).
+    ///
+    /// # Errors
+    /// When the text becomes too long, or `factor` is not finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self, ExpressionError> {
+        let is_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+        let mut text = format!("{factor:?}*(");
+        let mut rest = &*self.source;
+        while let Some(letter) = rest.chars().next() {
+            let word = rest.find(|letter| !is_name(letter)).unwrap_or(rest.len()).max(letter.len_utf8());
+            match &rest[..word] {
+                "x" => text.push_str(&format!("(x/{factor:?})")),
+                other => text.push_str(other),
+            }
+            rest = &rest[word..];
+        }
+        text.push(')');
+        Self::parse(&text)
+    }
+
     /// The text.
     pub fn source(&self) -> &str {
         &self.source

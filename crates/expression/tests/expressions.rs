@@ -33,6 +33,14 @@ fn values() {
 }
 
 #[test]
+fn scaled_graphs() {
+    let larger = parsed("exp(x) - max(x^2, 1e2)").scaled(2.5).unwrap();
+    assert_eq!(larger.source(), "2.5*(exp((x/2.5)) - max((x/2.5)^2, 1e2))");
+    assert!((larger.value(1.0) - 2.5 * (0.4_f64.exp() - 100.0)).abs() < 1e-12);
+    assert!(parsed("x").scaled(f64::NAN).is_err());
+}
+
+#[test]
 fn refusals_name_the_column() {
     let check = |text: &str, expected: &str| {
         let error = Expression::parse(text).unwrap_err().to_string();
