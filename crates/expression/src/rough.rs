@@ -37,10 +37,16 @@ const OVERLAP: f64 = 1e-3;
 const MOST_CELLS: usize = 200_000;
 
 impl Rough {
-    /// x in the middle of the place, with the digits that are known.
+    /// x in the middle of the place, with the digits that are known; where a whole stretch begins, its end nearer to 0.
     pub fn x(&self) -> f64 {
-        let (middle, width) = (0.5 * (self.low + self.high), self.high - self.low);
-        if middle.abs() <= width {
+        let width = self.high - self.low;
+        let nearer = if self.low.abs() <= self.high.abs() { self.low } else { self.high };
+        let stretch = width > 1e-9 * nearer.abs().max(1.0);
+        let middle = if stretch { nearer } else { 0.5 * (self.low + self.high) };
+        if middle.abs() <= width && !stretch {
+            return 0.0;
+        }
+        if middle == 0.0 {
             return 0.0;
         }
         let scale = 1e10 / libm::exp2(libm::ceil(libm::log2(middle.abs())));

@@ -15,6 +15,7 @@ pub mod curve;
 pub mod hull;
 pub mod kinematics;
 pub mod laws;
+mod quadrature;
 pub mod safety;
 pub mod seek;
 pub mod simulate;

@@ -24,7 +24,5 @@ fn refusal(function: &Expression, rough: &Rough) -> CurveError {
         }
     };
     let expression = function.source().to_owned();
-    // A whole stretch without a value begins somewhere: that is the place to name.
-    let x = if rough.high - rough.low > 1e-6 { rough.low } else { rough.x() };
-    CurveError::NotSmooth { expression, problem, x, cause: rough.cause, column: rough.column, remedy }
+    CurveError::NotSmooth { expression, problem, x: rough.x(), cause: rough.cause, column: rough.column, remedy }
 }

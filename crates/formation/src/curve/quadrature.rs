@@ -1,14 +1,6 @@
 //! Arc length of a primitive by Gauss-Legendre quadrature.
 use super::primitive::Primitive;
-
-/// Positive nodes and their weights of the ten-point rule on [-1, 1] (Abramowitz and Stegun, table 25.4).
-const NODES: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_2, 0.295_524_224_714_752_87),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_36),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
-];
+use crate::quadrature::integral;
 
 /// Length of `primitive` from parameter `from` to `to`, metres; negative if `to < from`.
 pub(super) fn arc_length(primitive: &Primitive, from: f64, to: f64) -> f64 {
@@ -18,10 +10,5 @@ pub(super) fn arc_length(primitive: &Primitive, from: f64, to: f64) -> f64 {
     if let Some((_, radius)) = primitive.circle() {
         return radius * (to - from);
     }
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let speed = |u: f64| primitive.evaluate(u).first.norm();
-    half * NODES
-        .iter()
-        .map(|&(node, weight)| weight * (speed(middle - half * node) + speed(middle + half * node)))
-        .sum::<f64>()
+    integral(from, to, |u| primitive.evaluate(u).first.norm())
 }

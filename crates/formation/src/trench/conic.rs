@@ -1,5 +1,5 @@
 //! Example 5.2.1 with m = 1.
-use super::{Slopes, Trench};
+use super::{Interval, Slopes, Trench, convex_bounds};
 
 /// Phi = alpha |x|: the same pull from everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,5 +22,8 @@ impl Trench for Conic {
 
     fn kinks(&self) -> Vec<f64> {
         vec![0.0]
+    }
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        convex_bounds(self, low, high)
     }
 }

@@ -1,5 +1,5 @@
 //! Example 5.2.2, the trench of [29] and of the simulations of 5.6, 6.5 and 7.10.
-use super::{Slopes, Trench};
+use super::{Interval, Slopes, Trench, convex_bounds};
 
 /// Phi = alpha (sqrt(x^2 + a^2) - a): a spring alpha/a near the bottom, a pull of at most alpha far away.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,5 +25,8 @@ impl Trench for Hyperbolic {
 
     fn slopes(&self, x: f64) -> Slopes {
         Slopes::smooth(self.alpha * x / self.root(x))
+    }
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        convex_bounds(self, low, high)
     }
 }

@@ -10,6 +10,7 @@ mod quadratic;
 mod saturated;
 mod square_root;
 mod table;
+mod written;
 
 pub use admissibility::{Admissible, Inadmissible, check_admissibility};
 pub use conic::Conic;
@@ -20,33 +21,8 @@ pub use quadratic::Quadratic;
 pub use saturated::Saturated;
 pub use square_root::SquareRoot;
 pub use table::{SlopeTable, TableError};
-
-/// A closed interval: Clarke's generalized gradient of a function of one variable.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-}
-
-impl Interval {
-    /// Whether `value` lies in it.
-    pub fn contains(self, value: f64) -> bool {
-        self.low <= value && value <= self.high
-    }
-
-    /// Its element nearest to 0.
-    pub fn smallest(self) -> f64 {
-        if self.contains(0.0) {
-            0.0
-        } else if self.low > 0.0 {
-            self.low
-        } else {
-            self.high
-        }
-    }
-}
+pub use trench_expression::Interval;
+pub use written::{Meaning, Written, WrittenError};
 
 /// The limits of a derivative from the left and from the right; equal except at kinks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +58,11 @@ pub trait Trench {
         Vec::new()
     }
 
+    /// An interval with all slopes between `low` and `high`, if the trench can tell: what is shown by it holds everywhere.
+    fn slope_bounds(&self, _low: f64, _high: f64) -> Option<Interval> {
+        None
+    }
+
     /// Clarke's generalized gradient at x.
     fn gradient(&self, x: f64) -> Interval {
         self.slopes(x).gradient()
@@ -91,4 +72,9 @@ pub trait Trench {
     fn slope(&self, x: f64) -> f64 {
         self.gradient(x).smallest()
     }
+}
+
+/// [`Trench::slope_bounds`] of a convex trench, whose slope never falls.
+fn convex_bounds(trench: &impl Trench, low: f64, high: f64) -> Option<Interval> {
+    Some(Interval { low: trench.slopes(low).left, high: trench.slopes(high).right })
 }

@@ -1,5 +1,5 @@
 //! Phi_2 of 5.6, with the constant that makes it continuous (ERRATA: 7.07 |x| - 3.535 for |x| >= 1).
-use super::{Slopes, Trench};
+use super::{Interval, Slopes, Trench, convex_bounds};
 
 /// Phi' = stiffness * clamp(x, -edge, edge): a spring whose force the actuator can bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,5 +18,8 @@ impl Trench for Saturated {
 
     fn slopes(&self, x: f64) -> Slopes {
         Slopes::smooth(self.stiffness * x.clamp(-self.edge, self.edge))
+    }
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        convex_bounds(self, low, high)
     }
 }

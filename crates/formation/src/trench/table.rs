@@ -1,5 +1,5 @@
 //! A trench from a table of its slope: Lemma 5.2.1 as a constructor.
-use super::{Slopes, Trench};
+use super::{Interval, Slopes, Trench};
 
 /// Phi(x) = integral of phi from 0 to |x|, phi given by points between which it is linear. Two points of one x make a
 /// jump of the slope, a kink of Phi; beyond the last point the slope stays. phi is continued as an odd function.
@@ -108,6 +108,14 @@ impl Trench for SlopeTable {
         kinks.sort_by(f64::total_cmp);
         kinks.dedup();
         kinks
+    }
+
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        let ends = [self.slopes(low).left, self.slopes(low).right, self.slopes(high).left, self.slopes(high).right];
+        let corners = self.points.iter().flat_map(|&(x, _)| [x, -x]).filter(|x| (low..=high).contains(x));
+        let inner = corners.flat_map(|x| [self.slopes(x).left, self.slopes(x).right]);
+        let hull = |all: Interval, slope: f64| Interval { low: all.low.min(slope), high: all.high.max(slope) };
+        Some(ends.into_iter().chain(inner).fold(Interval { low: f64::INFINITY, high: f64::NEG_INFINITY }, hull))
     }
 }
 
