@@ -6,7 +6,7 @@ use crate::medium::{Medium, MediumSetup};
 use crate::serial_line::SerialLine;
 use crate::setup::{BedSetup, Shutter};
 use crate::world::STEP;
-use crate::{Contact, Obstacle, Random, Truth, World, battery};
+use crate::{Contact, Laser, Obstacle, Random, Truth, World, battery};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trench_optics::Pose2;
@@ -32,6 +32,19 @@ pub enum Output {
     Frame(Frame),
     /// Bodies touch.
     Contact(Contact),
+    /// A robot's laser has looked round.
+    Scan(Scan),
+}
+
+/// What a laser measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// When, ns.
+    pub at: u64,
+    /// Index of the robot.
+    pub robot: usize,
+    /// m, counter-clockwise; see [`Laser`].
+    pub ranges: Vec<f32>,
 }
 
 /// What the camera saw.
@@ -75,8 +88,11 @@ pub struct Bed {
     up: BTreeMap<Flight, Flying>,
     flights: u64,
     shutter: Shutter,
+    laser: Option<Laser>,
+    laser_noise: Random,
     start: u64,
     exposed: u64,
+    scanned: u64,
     reports: Vec<u64>,
     frames: VecDeque<Frame>,
     outputs: VecDeque<Output>,
@@ -86,6 +102,7 @@ pub struct Bed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Due {
     Exposed,
+    Scanned,
     FrameReady,
     HostByte,
     AtRobot,
@@ -98,7 +115,7 @@ impl Bed {
     /// Everything at rest at `setup.start`. The first frame is exposed one period later.
     #[must_use]
     pub fn new(setup: BedSetup) -> Self {
-        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, baud, key } = setup;
+        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, laser, baud, key } = setup;
         let poses = robots.iter().map(|(_, pose)| *pose).collect();
         let slot = |id: u8| start + u64::from(id) * (ROUND / MAX_ROBOTS as u64);
         Self {
@@ -112,8 +129,11 @@ impl Bed {
             up: BTreeMap::new(),
             flights: 0,
             shutter,
+            laser,
+            laser_noise: Random::new(seed, 3),
             start,
             exposed: 0,
+            scanned: 0,
             reports: robots.iter().map(|&(id, _)| slot(id)).collect(),
             frames: VecDeque::new(),
             outputs: VecDeque::new(),
@@ -191,8 +211,10 @@ impl Bed {
         let reports = self.reports.iter().enumerate().map(|(robot, at)| (*at, Due::Report(robot)));
         let line = |line: &SerialLine, due| line.next_arrival().map(|at| (at, due));
         let flight = |flights: &BTreeMap<Flight, Flying>, due| flights.keys().next().map(|(at, _)| (*at, due));
+        let scan = self.laser.map(|laser| (self.start + (self.scanned + 1) * laser.period, Due::Scanned));
         [
             Some((self.exposure_middle() + self.exposure_end(), Due::Exposed)),
+            scan,
             self.frames.front().map(|frame| (frame.ready_at, Due::FrameReady)),
             line(&self.from_host, Due::HostByte),
             flight(&self.down, Due::AtRobot),
@@ -207,6 +229,7 @@ impl Bed {
     fn happen(&mut self, at: u64, due: Due) {
         match due {
             Due::Exposed => self.expose(),
+            Due::Scanned => self.scan(at),
             Due::FrameReady => self.outputs.extend(self.frames.pop_front().map(Output::Frame)),
             Due::HostByte => self.hear_host(at),
             Due::AtRobot => {
@@ -249,6 +272,15 @@ impl Bed {
             obstacles: self.world.obstacles().to_vec(),
         });
         self.exposed += 1;
+    }
+
+    fn scan(&mut self, at: u64) {
+        self.scanned += 1;
+        let Some(laser) = self.laser else { return };
+        for robot in 0..self.firmware.len() {
+            let ranges = self.world.scan(robot, &laser, &mut self.laser_noise);
+            self.outputs.push_back(Output::Scan(Scan { at, robot, ranges }));
+        }
     }
 
     fn hear_host(&mut self, now: u64) {

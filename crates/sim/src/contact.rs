@@ -43,7 +43,7 @@ pub(crate) struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// The gaps of robot `index` if its centre were at `point`, to whatever is nearer than `reach`.
     pub(crate) fn near(&self, index: usize, point: [f64; 2], reach: f64) -> impl Iterator<Item = Near> {
-        // Robots that are clearly farther need no root; the last filter compares exactly.
+        // Robots and obstacles that are clearly farther need no root; the last filter compares exactly.
         let clearly = (reach + 2.0 * self.radius) * (1.0 + 1e-9);
         let others = self.poses.iter().enumerate().filter(move |(other, _)| *other != index);
         let robots = others.filter_map(move |(other, pose)| {
@@ -56,9 +56,9 @@ impl Surroundings<'_> {
             let away = if distance > 0.0 { [offset[0] / distance, offset[1] / distance] } else { [1.0, 0.0] };
             Some(Near { thing: Thing::Robot(other), gap: distance - 2.0 * self.radius, away })
         });
-        let obstacles = self.obstacles.iter().enumerate().map(move |(number, obstacle)| {
-            let (clearance, away) = obstacle.clearance(point);
-            Near { thing: Thing::Obstacle(number), gap: clearance - self.radius, away }
+        let obstacles = self.obstacles.iter().enumerate().filter_map(move |(number, obstacle)| {
+            let (clearance, away) = obstacle.clearance_within(point, clearly)?;
+            Some(Near { thing: Thing::Obstacle(number), gap: clearance - self.radius, away })
         });
         let [x, y] = point;
         let edges = [

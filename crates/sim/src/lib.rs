@@ -1,6 +1,6 @@
 //! The simulated test bed: plants, motors, bodies, camera renderer, radio medium, firmware.
 //!
-//! [`World`] holds what moves: robots with stepper motors, bodies that block each other, obstacles. [`Bed`] puts the
+//! [`World`] holds what moves: robots with stepper motors, bodies that block each other, obstacles, lasers. [`Bed`] puts the
 //! radio before it (serial line, base station, air, firmware) and the camera's shutter above it. [`camera`] renders.
 //!
 //! Architecture invariant: pure and deterministic. Times are ns of a clock that the caller owns; chance comes from one
@@ -13,10 +13,13 @@ pub mod camera;
 mod contact;
 mod firmware;
 mod history;
+mod laser;
 mod medium;
 mod obstacle;
+mod path;
 mod random;
 mod range_sensor;
+mod ray;
 mod serial_line;
 mod setup;
 mod stepper;
@@ -24,12 +27,14 @@ mod unicycle;
 mod world;
 
 pub use base_station::BaseStation;
-pub use bed::{Bed, Frame, Output};
+pub use bed::{Bed, Frame, Output, Scan};
 pub use contact::{Field, Thing};
 pub use firmware::{Firmware, Sensors};
 pub use history::Truth;
+pub use laser::Laser;
 pub use medium::{Arrival, Medium, MediumSetup};
 pub use obstacle::Obstacle;
+pub use path::{Ending, Path};
 pub use random::Random;
 pub use range_sensor::{DIRECTIONS as RANGE_DIRECTIONS, REACH as RANGE_REACH};
 pub use serial_line::SerialLine;

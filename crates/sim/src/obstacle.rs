@@ -1,19 +1,73 @@
 //! Real obstacles: what bodies run into and range sensors see.
 
-use crate::camera;
+use crate::{Path, camera};
 
 /// A polygon grown by a radius, or a disc, that may move.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
-    /// Names it in contact reports and messages.
-    pub id: u32,
-    /// Corners in order, and radius; m in the map.
-    pub outline: camera::Obstacle,
-    /// m/s
-    pub velocity: [f64; 2],
+    id: u32,
+    outline: camera::Obstacle,
+    velocity: [f64; 2],
+    path: Option<Path>,
+    /// A circle around all of it: what is far from this need not be looked at closely.
+    centre: [f64; 2],
+    reach: f64,
 }
 
 impl Obstacle {
+    /// An obstacle with an outline (m in the map) that moves at `velocity` (m/s) for ever; `id` names it in messages.
+    #[must_use]
+    pub fn new(id: u32, outline: camera::Obstacle, velocity: [f64; 2]) -> Self {
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        for corner in &outline.corners {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        let centre = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+        let reach = outline.corners.iter().map(|corner| distance(*corner, centre)).fold(0.0, f64::max);
+        // A little more than exact: corners and centre are moved on apart from each other.
+        let reach = reach + outline.radius + 1e-6;
+        Self { id, outline, velocity, path: None, centre, reach }
+    }
+
+    /// The same obstacle on a way.
+    #[must_use]
+    pub fn on(self, path: Path) -> Self {
+        Self { path: Some(path), velocity: [0.0; 2], ..self }
+    }
+
+    /// Names it in messages.
+    #[must_use]
+    pub fn id(&self) -> u32 {
+        self.id
+    }
+
+    /// Corners in order, and radius; m in the map.
+    #[must_use]
+    pub fn outline(&self) -> &camera::Obstacle {
+        &self.outline
+    }
+
+    /// m/s
+    #[must_use]
+    pub fn velocity(&self) -> [f64; 2] {
+        self.velocity
+    }
+
+    /// Centre and radius of a circle around it, m.
+    pub(crate) fn circle(&self) -> ([f64; 2], f64) {
+        (self.centre, self.reach)
+    }
+
+    /// As [`Self::clearance`], nothing if that is clearly `reach` m or more.
+    pub(crate) fn clearance_within(&self, point: [f64; 2], reach: f64) -> Option<(f64, [f64; 2])> {
+        let offset = [point[0] - self.centre[0], point[1] - self.centre[1]];
+        let far = self.reach + reach.max(0.0);
+        (offset[0] * offset[0] + offset[1] * offset[1] <= far * far).then(|| self.clearance(point))
+    }
+
     /// The distance from a point to its surface, negative inside, and the unit vector that leads away from it.
     #[must_use]
     pub fn clearance(&self, point: [f64; 2]) -> (f64, [f64; 2]) {
@@ -43,21 +97,34 @@ impl Obstacle {
 
     /// Moves on for `dt` seconds.
     pub fn advance(&mut self, dt: f64) {
-        if self.velocity != [0.0, 0.0] {
-            for corner in &mut self.outline.corners {
-                corner[0] += self.velocity[0] * dt;
-                corner[1] += self.velocity[1] * dt;
+        let step = match &mut self.path {
+            Some(path) => {
+                let (step, velocity) = path.advance(dt);
+                self.velocity = velocity;
+                step
+            }
+            None => [self.velocity[0] * dt, self.velocity[1] * dt],
+        };
+        if step != [0.0, 0.0] {
+            for place in self.outline.corners.iter_mut().chain([&mut self.centre]) {
+                *place = [place[0] + step[0], place[1] + step[1]];
             }
         }
     }
 }
 
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let offset = [a[0] - b[0], a[1] - b[1]];
+    (offset[0] * offset[0] + offset[1] * offset[1]).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Ending;
 
     fn obstacle(corners: &[[f64; 2]], radius: f64) -> Obstacle {
-        Obstacle { outline: camera::Obstacle { corners: corners.to_vec(), radius }, ..Obstacle::default() }
+        Obstacle::new(1, camera::Obstacle { corners: corners.to_vec(), radius }, [0.0; 2])
     }
 
     #[test]
@@ -76,9 +143,26 @@ mod tests {
     }
 
     #[test]
-    fn it_moves() {
-        let mut disc = Obstacle { velocity: [0.5, -1.0], ..obstacle(&[[1.0, 1.0]], 0.5) };
+    fn it_moves_and_its_circle_with_it() {
+        let mut disc = Obstacle::new(1, camera::Obstacle { corners: vec![[1.0, 1.0]], radius: 0.5 }, [0.5, -1.0]);
         disc.advance(2.0);
-        assert_eq!(disc.outline.corners, [[2.0, -1.0]]);
+        assert_eq!((&disc.outline.corners[..], disc.velocity()), (&[[2.0, -1.0]][..], [0.5, -1.0]));
+        let mut wall = obstacle(&[[0.0, 0.0], [1.0, 0.0]], 0.1).on(Path::new(&[[0.0, 3.0]], 2.0, Ending::Stay, 0.0));
+        wall.advance(1.0);
+        assert_eq!((&wall.outline.corners[..], wall.velocity()), (&[[0.0, 2.0], [1.0, 2.0]][..], [0.0, 2.0]));
+        assert!(wall.clearance_within([0.5, 3.0], 1.0).is_some_and(|(clearance, _)| (clearance - 0.9).abs() < 1e-12));
+        assert_eq!(wall.clearance_within([0.5, 4.0], 1.0), None);
+    }
+
+    #[test]
+    fn inside_a_trap_is_outside_the_obstacle() {
+        // A U open to the right, walls 0.1 m thick.
+        let trap = obstacle(
+            &[[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.1, 0.1], [0.1, 0.9], [1.0, 0.9], [1.0, 1.0], [0.0, 1.0]],
+            0.0,
+        );
+        let (clearance, away) = trap.clearance([0.4, 0.5]);
+        assert!((clearance - 0.3).abs() < 1e-12 && away == [1.0, 0.0], "{clearance} {away:?}");
+        assert!(trap.clearance([0.05, 0.5]).0 < 0.0);
     }
 }

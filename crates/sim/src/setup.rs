@@ -1,6 +1,6 @@
 //! What a test bed is made of.
 
-use crate::{Body, Field, MediumSetup, Obstacle, Random};
+use crate::{Body, Field, Laser, MediumSetup, Obstacle, Random};
 use trench_optics::Pose2;
 use trench_radio::Key;
 
@@ -34,6 +34,8 @@ pub struct BedSetup {
     pub medium: MediumSetup,
     /// The camera.
     pub shutter: Shutter,
+    /// On every robot, if they have one. Scans are exact at whole milliseconds after the start.
+    pub laser: Option<Laser>,
     /// Of the line between host and base station, bit/s.
     pub baud: u32,
     /// The robots' key, if they have one.

@@ -3,7 +3,7 @@
 use crate::contact::Surroundings;
 use crate::history::History;
 use crate::unicycle::{rolled, wrapped};
-use crate::{Field, Motor, Obstacle, Thing, Truth, Wheel, range_sensor};
+use crate::{Field, Laser, Motor, Obstacle, Random, Thing, Truth, Wheel, range_sensor};
 use std::collections::BTreeSet;
 use trench_optics::Pose2;
 
@@ -130,6 +130,12 @@ impl World {
         range_sensor::readings(&self.surroundings(), robot)
     }
 
+    /// What a robot's laser measures, m; a little wrong by chance.
+    #[must_use]
+    pub fn scan(&self, robot: usize, laser: &Laser, random: &mut Random) -> Vec<f32> {
+        laser.scan(&self.surroundings(), robot, random)
+    }
+
     /// Takes the contacts that began since the last call.
     pub fn take_contacts(&mut self) -> Vec<Contact> {
         std::mem::take(&mut self.contacts)
@@ -155,21 +161,34 @@ impl World {
         let free = rolled(old, left, right, self.body.half_axle);
         let mut touched = Vec::new();
         let end = self.surroundings().blocked(robot, [old.x, old.y], [free.x, free.y], |thing| touched.push(thing));
+        let end = self.pushed(robot, end, &mut touched);
         let pose = Pose2 { x: end[0], y: end[1], theta: free.theta };
         self.poses[robot] = pose;
         for thing in touched {
             self.report(robot, thing);
         }
-        // Things that move may come upon a robot that does not.
-        for number in 0..self.obstacles.len() {
-            if self.obstacles[number].clearance(end).0 < self.body.radius {
-                self.report(robot, Thing::Obstacle(number));
-            }
-        }
         let (sin, cos) = libm::sincos(old.theta);
         let v = ((pose.x - old.x) * cos + (pose.y - old.y) * sin) / STEP_SECONDS;
         let omega = wrapped(pose.theta - old.theta) / STEP_SECONDS;
         self.histories[robot].push(Truth { pose, v, omega });
+    }
+
+    /// Where a robot is after the obstacles that came upon it have pushed it aside, as far as there is room.
+    fn pushed(&self, robot: usize, from: [f64; 2], touched: &mut Vec<Thing>) -> [f64; 2] {
+        let mut end = from;
+        for (number, obstacle) in self.obstacles.iter().enumerate() {
+            let Some((clearance, away)) = obstacle.clearance_within(end, self.body.radius) else { continue };
+            let depth = self.body.radius - clearance;
+            if depth <= 0.0 {
+                continue;
+            }
+            touched.push(Thing::Obstacle(number));
+            if obstacle.velocity() != [0.0, 0.0] {
+                let aside = [end[0] + depth * away[0], end[1] + depth * away[1]];
+                end = self.surroundings().blocked(robot, end, aside, |thing| touched.push(thing));
+            }
+        }
+        end
     }
 
     fn report(&mut self, robot: usize, thing: Thing) {

@@ -21,6 +21,7 @@ fn setup(robots: &[Pose2]) -> BedSetup {
         obstacles: vec![],
         medium: MediumSetup::HONEST,
         shutter: Shutter { period: 33_333_333, exposure: 10 * MS, delay: 35 * MS },
+        laser: None,
         baud: 115_200,
         key: None,
     }

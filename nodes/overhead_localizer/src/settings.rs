@@ -17,8 +17,8 @@ pub(crate) enum Input {
     Detections,
 }
 
-/// What an ordinary detector's centres of discs are taken to be off by, m: a tenth of a pixel of the test bed's camera.
-const DETECTED_SIGMA: f64 = 3e-4;
+/// What a detector's centres of discs are taken to be off by, m: 0.0185 pixel of the test bed's camera, as the own one's.
+const DETECTED_SIGMA: f64 = 6e-5;
 
 /// What the localizer is told once.
 #[derive(Debug, Clone)]
@@ -66,8 +66,7 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double(
             "disc_sigma",
             0.0,
-            "m, standard deviation of a disc's measured centre; 0: 5e-5 for discs found here, 3e-4 (a tenth of a pixel) \
-             for detections",
+            "m, standard deviation of a disc's measured centre; 0: 5e-5 for discs found here, 6e-5 for detections",
         )
         .range(0.0, 0.1),
         P::double("motion.acceleration", motion.acceleration, "m/s/sqrt(s), how freely forward speeds change")

@@ -12,7 +12,7 @@ use trench_msgs::msg::DiscArray;
 use trench_msgs::rosgraph_msgs::Clock;
 use trench_optics::Pose2;
 use trench_sim::camera::{Renderer, Scene};
-use trench_sim::{Bed, Frame, Output, Random};
+use trench_sim::{Bed, Frame, Output, Random, Scan};
 
 /// The one byte stream of the test bed.
 const STREAM: usize = 0;
@@ -32,6 +32,7 @@ pub struct Testbed {
     published: u64,
     dropped: u64,
     contacts: u64,
+    last_contact: String,
     health: Health,
 }
 
@@ -48,6 +49,7 @@ impl Testbed {
             published: 0,
             dropped: 0,
             contacts: 0,
+            last_contact: String::new(),
             health: Health::new(resolve_name("~", &context.namespace, &context.name)),
             settings,
         }
@@ -74,17 +76,27 @@ impl Testbed {
             match output {
                 Output::Serial { bytes, .. } => sink.write_bytes(STREAM, &bytes),
                 Output::Frame(frame) => self.frame(at, &frame, sink),
+                Output::Scan(scan) => self.scan(at, scan, sink),
                 Output::Contact(contact) => {
                     self.contacts += 1;
                     let message = messages::contact(ros(at, contact.at), &contact, &self.settings.robots);
                     if let Some(status) = message.status.first() {
                         sink.log(Level::Error, &status.message);
+                        self.last_contact.clone_from(&status.message);
                     }
                     sink.publish(self.ports.contacts, &message);
                 }
             }
         }
         self.bed = Some(bed);
+    }
+
+    fn scan(&self, at: Times, scan: Scan, sink: &mut dyn Sink) {
+        let (Some(name), Some(laser)) = (self.settings.robots.get(scan.robot), &self.settings.bed.laser) else {
+            return;
+        };
+        let message = messages::scan(ros(at, scan.at), name, laser, scan.ranges);
+        sink.publish(self.ports.scans + scan.robot, &message);
     }
 
     fn frame(&mut self, at: Times, frame: &Frame, sink: &mut dyn Sink) {
@@ -115,7 +127,7 @@ impl Testbed {
     fn render(&self, renderer: &Renderer, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
         let lens = self.settings.camera.lens();
         let (view, pixels) = (image(lens, stamp), pixel_bytes(lens));
-        let obstacles: Vec<_> = frame.obstacles.iter().map(|obstacle| obstacle.outline.clone()).collect();
+        let obstacles: Vec<_> = frame.obstacles.iter().map(|obstacle| obstacle.outline().clone()).collect();
         let scene = Scene { robots: &frame.exposure, obstacles: &obstacles };
         sink.publish_with(self.ports.frames, view.encoded_len_with(pixels), &mut |out| {
             let Some(range) = view.encode_around(pixels, out) else { return 0 };
@@ -140,7 +152,8 @@ impl Testbed {
         self.health.value("camera", "published", self.published);
         self.health.value("camera", "too late", self.dropped);
         let condition = if self.contacts == 0 { Condition::Ok } else { Condition::Error };
-        self.health.set("bodies", condition, if self.contacts == 0 { "no contact" } else { "there were contacts" });
+        let message = if self.contacts == 0 { "no contact".to_owned() } else { format!("last: {}", self.last_contact) };
+        self.health.set("bodies", condition, message);
         self.health.value("bodies", "contacts", self.contacts);
         self.health.set("base station", Condition::Ok, "listening");
     }

@@ -11,7 +11,7 @@ use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{DiscArray, ObstacleArray};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::rosgraph_msgs::Clock;
-use trench_msgs::sensor_msgs::{CameraInfo, Image, ImageView};
+use trench_msgs::sensor_msgs::{CameraInfo, Image, ImageView, LaserScan};
 use trench_msgs::std_msgs::HeaderView;
 use trench_msgs::{Message, TypeInfo};
 use trench_optics::Lens;
@@ -28,6 +28,8 @@ pub(crate) struct Ports {
     pub(crate) clock: Option<usize>,
     /// The first robot's; the others follow.
     pub(crate) truth: usize,
+    /// The first robot's, if they have lasers; the others follow.
+    pub(crate) scans: usize,
 }
 
 /// The node as processes and the simulator make it.
@@ -83,7 +85,7 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         let local = Local::SharedMemory { max_len: 16 * 1024 };
         advertise("/overhead/detections", DiscArray::TYPE, Qos::RELIABLE, local)
     };
-    let obstacles = (!settings.bed.obstacles.is_empty())
+    let obstacles = (settings.publish_obstacles && !settings.bed.obstacles.is_empty())
         .then(|| advertise("/obstacles", ObstacleArray::TYPE, Qos::RELIABLE, network));
     let clock = settings.publish_clock.then(|| advertise("/clock", Clock::TYPE, Qos::RELIABLE, network));
     let truth = publications.len();
@@ -91,10 +93,19 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         let topic = format!("/ground_truth/{robot}/odom");
         publications.push(Advertise { topic, type_info: Odometry::TYPE, qos: Qos::RELIABLE, local: network });
     }
+    let scans = publications.len();
+    if let Some(laser) = settings.bed.laser {
+        for robot in &settings.robots {
+            // Ranges, and room for the rest of the message.
+            let local = Local::SharedMemory { max_len: 4 * laser.rays + 256 };
+            let topic = format!("/{robot}/scan");
+            publications.push(Advertise { topic, type_info: LaserScan::TYPE, qos: Qos::SENSOR, local });
+        }
+    }
     let interface = Interface {
         publications,
         byte_streams: vec![ByteStream::PseudoTerminal { link: settings.link.clone() }],
         ..Interface::default()
     };
-    (interface, Ports { diagnostics, contacts, camera_info, frames, obstacles, clock, truth })
+    (interface, Ports { diagnostics, contacts, camera_info, frames, obstacles, clock, truth, scans })
 }

@@ -5,10 +5,10 @@ use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use trench_msgs::geometry_msgs::Quaternion;
 use trench_msgs::msg::{Obstacle, ObstacleArray, Point2};
 use trench_msgs::nav_msgs::Odometry;
-use trench_msgs::sensor_msgs::CameraInfo;
+use trench_msgs::sensor_msgs::{CameraInfo, LaserScan};
 use trench_msgs::std_msgs::Header;
 use trench_optics::Lens;
-use trench_sim::{Contact, Thing, Truth};
+use trench_sim::{Contact, Laser, Thing, Truth};
 
 /// The frame of the camera's messages.
 pub(crate) const CAMERA_FRAME: &str = "overhead_camera";
@@ -50,12 +50,28 @@ pub(crate) fn odometry(stamp: RosTime, robot: &str, truth: &Truth) -> Odometry {
 pub(crate) fn obstacles(stamp: RosTime, obstacles: &[trench_sim::Obstacle]) -> ObstacleArray {
     let point = |[x, y]: [f64; 2]| Point2 { x, y };
     let obstacle = |obstacle: &trench_sim::Obstacle| Obstacle {
-        id: obstacle.id,
-        polygon: obstacle.outline.corners.iter().copied().map(point).collect(),
-        radius: obstacle.outline.radius,
-        velocity: point(obstacle.velocity),
+        id: obstacle.id(),
+        polygon: obstacle.outline().corners.iter().copied().map(point).collect(),
+        radius: obstacle.outline().radius,
+        velocity: point(obstacle.velocity()),
     };
     ObstacleArray { header: header(stamp, "map"), obstacles: obstacles.iter().map(obstacle).collect() }
+}
+
+/// What a robot's laser measured; its rays leave together.
+pub(crate) fn scan(stamp: RosTime, robot: &str, laser: &Laser, ranges: Vec<f32>) -> LaserScan {
+    LaserScan {
+        header: header(stamp, &format!("{robot}/base_link")),
+        angle_min: laser.angle_min() as f32,
+        angle_max: (laser.angle_min() + laser.increment() * ranges.len().saturating_sub(1) as f64) as f32,
+        angle_increment: laser.increment() as f32,
+        time_increment: 0.0,
+        scan_time: (laser.period as f64 * 1e-9) as f32,
+        range_min: laser.range_min as f32,
+        range_max: laser.range_max as f32,
+        ranges,
+        intensities: Vec::new(),
+    }
 }
 
 /// Two bodies touch.
@@ -74,7 +90,11 @@ pub(crate) fn contact(stamp: RosTime, contact: &Contact, robots: &[String]) -> D
         name: format!("contact: {}", name(contact.robot)),
         message: format!("{} touches {thing}", name(contact.robot)),
         hardware_id: name(contact.robot).to_owned(),
-        values: vec![value("x", contact.pose.x), value("y", contact.pose.y)],
+        values: vec![
+            KeyValue { key: "thing".to_owned(), value: thing },
+            value("x", contact.pose.x),
+            value("y", contact.pose.y),
+        ],
     };
     DiagnosticArray { header: header(stamp, "map"), status: vec![status] }
 }

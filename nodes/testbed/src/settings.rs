@@ -6,7 +6,7 @@ use trench_core::Files;
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
 use trench_radio::{Key, MAX_ROBOTS};
 use trench_sim::camera::{Appearance, Background};
-use trench_sim::{BedSetup, Body, Field, MediumSetup, Motor, Obstacle, Random, Shutter, scattered};
+use trench_sim::{BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Random, Shutter, scattered};
 
 /// What the test bed is told. All of it is fixed while it runs.
 #[derive(Debug, Clone)]
@@ -20,6 +20,7 @@ pub(crate) struct Settings {
     pub(crate) render: bool,
     pub(crate) detection_noise: f64,
     pub(crate) publish_clock: bool,
+    pub(crate) publish_obstacles: bool,
 }
 
 pub(crate) fn descriptors() -> Vec<P> {
@@ -49,11 +50,24 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::string("image.background", "plain", "plain, noisy or wood"),
         P::double("image.noise", 4.0, "of 255, standard deviation of each channel of each pixel").range(0.0, 64.0),
         P::double("image.gradient", 0.3, "how much darker the darkest corner is").range(0.0, 1.0),
-        P::double("detections.noise", 0.1, "pixel, standard deviation of each disc's u and v").range(0.0, 10.0),
+        P::double(
+            "detections.noise",
+            0.0185,
+            "pixel, standard deviation of each disc's u and v; as of the own detector",
+        )
+        .range(0.0, 10.0),
         P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0),
         P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres").range(0.005, 1.0),
         P::double("pad.height", Pad::NOMINAL.height, "m, above the floor").range(0.0, 1.0),
         P::string("obstacles_file", "", "YAML list of obstacles; empty: none"),
+        P::bool("publish_obstacles", true, "tell of them on /obstacles; false: lasers must find them"),
+        P::double("laser.rate", 0.0, "scans a second of each robot's laser; 0: robots have none").range(0.0, 100.0),
+        P::double("laser.range_min", 0.1, "m, what is nearer is not measured").range(0.0, 100.0),
+        P::double("laser.range_max", 3.5, "m, what is farther is not seen").range(0.01, 100.0),
+        P::double("laser.field_of_view", std::f64::consts::TAU, "rad, half of it to either side of the front")
+            .range(0.0, std::f64::consts::TAU),
+        P::integer("laser.rays", 180, "a scan").range(1.0, 10_000.0),
+        P::double("laser.noise", 0.01, "m, standard deviation of a range").range(0.0, 1.0),
         P::bool("publish_clock", false, "publish /clock"),
     ];
     parameters.into_iter().map(P::read_only).collect()
@@ -83,6 +97,7 @@ impl Settings {
             render: parameters.bool("render")?,
             detection_noise: double("detections.noise")?,
             publish_clock: parameters.bool("publish_clock")?,
+            publish_obstacles: parameters.bool("publish_obstacles")?,
         })
     }
 }
@@ -132,9 +147,31 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
             exposure: nanoseconds(double("camera.exposure")?),
             delay: nanoseconds(double("camera.delay")?),
         },
+        laser: laser(parameters)?,
         baud: u32::try_from(parameters.usize("serial.baud")?).unwrap_or(u32::MAX),
         key,
     })
+}
+
+/// Scans are at whole milliseconds, where the world is exact.
+fn laser(parameters: &Parameters) -> Result<Option<Laser>, ConfigError> {
+    let rate = parameters.f64("laser.rate")?;
+    if rate <= 0.0 {
+        return Ok(None);
+    }
+    let laser = Laser {
+        period: ((1e3 / rate).round().max(1.0) as u64).saturating_mul(1_000_000),
+        range_min: parameters.f64("laser.range_min")?,
+        range_max: parameters.f64("laser.range_max")?,
+        field_of_view: parameters.f64("laser.field_of_view")?,
+        rays: parameters.usize("laser.rays")?,
+        noise: parameters.f64("laser.noise")?,
+    };
+    if laser.range_max <= laser.range_min {
+        let remedy = format!("write more than {}", laser.range_min);
+        return Err(parameters.error("laser.range_max", "is not beyond laser.range_min", remedy));
+    }
+    Ok(Some(laser))
 }
 
 /// The robots' ids, each once, as many as names.

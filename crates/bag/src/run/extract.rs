@@ -1,10 +1,11 @@
 //! From a bag to a run.
 
-use super::{GoalSample, Pose, Run, Track};
+use super::{ContactSample, GoalSample, Pose, Run, Track};
 use crate::{BagError, BagReader};
 use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_msgs::Message;
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{Assignment, Formation, Goals, RobotState, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 
@@ -32,6 +33,7 @@ impl Run {
 /// What a topic is to a run.
 enum Role {
     GroundTruth(String),
+    Contacts,
     TeamState,
     Goals,
     Formation,
@@ -48,6 +50,7 @@ impl Role {
             ("/formation", "trench_msgs/msg/Formation") => Self::Formation,
             ("/assignment", "trench_msgs/msg/Assignment") => Self::Assignment,
             ("/run_state", "trench_msgs/msg/RunState") => Self::RunState,
+            ("/ground_truth/contacts", "diagnostic_msgs/msg/DiagnosticArray") => Self::Contacts,
             (name, "nav_msgs/msg/Odometry") => {
                 let robot = name.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
                 robot.map_or(Self::Other, |robot| Self::GroundTruth(robot.to_owned()))
@@ -65,6 +68,7 @@ pub struct RunBuilder {
     truth: BTreeMap<String, Vec<(i64, Pose)>>,
     estimates: BTreeMap<String, Vec<(i64, Pose)>>,
     goals: BTreeMap<String, Vec<(i64, GoalSample)>>,
+    contacts: Vec<(i64, ContactSample)>,
 }
 
 impl RunBuilder {
@@ -82,6 +86,13 @@ impl RunBuilder {
                 let odometry = Odometry::decode(message).ok()?;
                 let pose = pose_of(&odometry)?;
                 self.truth.entry(robot.clone()).or_default().push((RosTime::from(&odometry.header.stamp).0, pose));
+            }
+            Role::Contacts => {
+                let array = DiagnosticArray::decode(message).ok()?;
+                let stamp = RosTime::from(&array.header.stamp).0;
+                for status in &array.status {
+                    self.contacts.push((stamp, ContactSample::read(status)?));
+                }
             }
             Role::TeamState => {
                 let team = TeamState::decode(message).ok()?;
@@ -124,7 +135,7 @@ impl RunBuilder {
     /// The run, its times counted from t0.
     #[must_use]
     pub fn finish(self) -> Run {
-        let Self { mut run, truth, estimates, goals } = self;
+        let Self { mut run, truth, estimates, goals, mut contacts } = self;
         run.is_ground_truth = !truth.is_empty();
         let poses = if truth.is_empty() { estimates } else { truth };
         let first = poses.values().filter_map(|poses| poses.iter().map(|(stamp, _)| *stamp).min()).min();
@@ -138,6 +149,9 @@ impl RunBuilder {
             let track = run.robots.entry(robot).or_default();
             track.goals = goals.into_iter().map(|(stamp, goal)| GoalSample { time: seconds(stamp), ..goal }).collect();
         }
+        contacts.sort_by_key(|(stamp, _)| *stamp);
+        let timed = |(stamp, contact)| ContactSample { time: seconds(stamp), ..contact };
+        run.contacts = contacts.into_iter().map(timed).collect();
         run.robots.values_mut().for_each(Track::sort);
         run
     }

@@ -1,11 +1,13 @@
 //! An experiment read out of a bag, or out of the table that `trench sim` writes: where the robots were, where they
 //! should have been, and how well they did.
 
+mod contact;
 mod csv;
 mod extract;
 mod summary;
 mod track;
 
+pub use contact::ContactSample;
 pub use csv::CsvError;
 pub use extract::RunBuilder;
 pub use summary::{Closest, RobotSummary, RunSummary, ShapeSample, SummaryOptions, summary};
@@ -28,6 +30,8 @@ pub struct Run {
     pub assignment: Option<Assignment>,
     /// The last run state.
     pub state: Option<RunState>,
+    /// Who touched whom, by time: known from the ground truth of a simulation alone.
+    pub contacts: Vec<ContactSample>,
     /// Whether poses are ground truth; else they are the localizer's.
     pub is_ground_truth: bool,
     /// How many messages of known types could not be read.

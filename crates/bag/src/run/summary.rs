@@ -1,8 +1,11 @@
 //! How well a run went, in numbers: what the tests of whole runs judge by.
 
-use super::{Run, distance};
+use super::{ContactSample, Run, distance};
 use serde::Serialize;
 use std::fmt::{self, Display};
+
+/// So many contacts are told one by one.
+const MOST_CONTACTS: usize = 20;
 
 /// What to compute.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +47,8 @@ pub struct RunSummary {
     pub max_shape_error: Option<f64>,
     /// The nearest that two bodies came to each other after the beginning.
     pub closest: Option<Closest>,
+    /// Who touched whom, by ground truth.
+    pub contacts: Vec<ContactSample>,
     /// Messages that could not be read.
     pub undecodable: u64,
 }
@@ -106,6 +111,7 @@ pub fn summary(run: &Run, options: &SummaryOptions) -> RunSummary {
             .filter_map(|t| run.shape_error(t))
             .reduce(f64::max),
         closest: closest(run, end, options.body_diameter),
+        contacts: run.contacts.clone(),
         undecodable: run.undecodable,
     }
 }
@@ -173,6 +179,15 @@ impl Display for RunSummary {
         )?;
         if let Some(Closest { robots: [a, b], time, gap }) = &self.closest {
             writeln!(out, "smallest body distance  {gap:>9.4} m  ({a} and {b}, t = {time:.2} s)")?;
+        }
+        if self.ground_truth {
+            writeln!(out, "contacts                {:>9}", self.contacts.len())?;
+        }
+        for contact in self.contacts.iter().take(MOST_CONTACTS) {
+            writeln!(out, "  {contact}")?;
+        }
+        if self.contacts.len() > MOST_CONTACTS {
+            writeln!(out, "  and {} more", self.contacts.len() - MOST_CONTACTS)?;
         }
         if self.undecodable > 0 {
             writeln!(out, "{} messages could not be read", self.undecodable)?;
