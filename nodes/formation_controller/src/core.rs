@@ -1,8 +1,11 @@
 //! The node core: events in, ticks, messages out.
 
-use crate::inputs::{Heard, point, vector};
+use crate::inputs::{Heard, Hull, point};
+use crate::refusal::Refusal;
+use crate::segments::Segments;
 use crate::settings::{Settings, check_gains, descriptors};
 use crate::tick::{Command, Tick};
+use std::sync::Arc;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
@@ -32,6 +35,15 @@ const DIAGNOSTICS: usize = 2;
 
 /// Room for one small message in shared memory.
 const SMALL: Local = Local::SharedMemory { max_len: 1024 };
+
+/// Why a message was dropped.
+#[derive(Debug, thiserror::Error)]
+enum Dropped {
+    #[error(transparent)]
+    Cdr(#[from] CdrError),
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
 
 /// One robot's controller.
 pub struct FormationController {
@@ -111,26 +123,35 @@ fn interface(settings: &Settings, others: &[String]) -> Interface {
 }
 
 impl FormationController {
-    fn take(&mut self, at: Times, port: usize, cdr: &[u8]) -> Result<(), CdrError> {
+    fn take(&mut self, at: Times, port: usize, cdr: &[u8]) -> Result<(), Dropped> {
         let inputs = &mut self.tick.inputs;
         match port {
-            TEAM_STATE => inputs.team = Some(Heard { at: at.steady, message: TeamState::decode(cdr)? }),
-            GOALS => inputs.goals = Some(Heard { at: at.steady, message: Goals::decode(cdr)? }),
+            TEAM_STATE => inputs.take_team(at, TeamState::decode(cdr)?)?,
+            GOALS => inputs.take_goals(at, Goals::decode(cdr)?)?,
             ASSIGNMENT => inputs.assignment = Some(Assignment::decode(cdr)?),
-            FORMATION => inputs.formation = Some(Formation::decode(cdr)?),
+            FORMATION => inputs.segments = Some(Arc::new(Segments::of(&Formation::decode(cdr)?))),
             RUN_STATE => inputs.run = Some(RunState::decode(cdr)?),
             APPARENT_OBSTACLES => {
-                inputs.obstacles = Some(Heard { at: at.steady, message: ApparentObstacleArray::decode(cdr)? });
+                let message = Hull::all(&ApparentObstacleArray::decode(cdr)?);
+                inputs.obstacles = Some(Heard { at: at.steady, message });
             }
             EMERGENCY_STOP => inputs.emergency_stop = Bool::decode(cdr)?.data,
             _ => {
                 let state = LeaderState::decode(cdr)?;
                 if let Some(name) = self.others.get(port - OTHERS) {
-                    inputs.others.insert(name.clone(), Heard { at: at.steady, message: state });
+                    inputs.take_other(at, name, state)?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// Tells once of gains that the operator allowed against the theory, at the start or after a change.
+    fn warn(&mut self, sink: &mut dyn Sink) {
+        if let Some(warning) = self.warning.take() {
+            sink.log(Level::Warn, &warning);
+            self.health.set("gains", Condition::Warn, warning);
+        }
     }
 
     fn drive(&mut self, at: Times, sink: &mut dyn Sink) {
@@ -161,43 +182,46 @@ impl FormationController {
         }
     }
 
-    fn leader_state(&mut self, command: &Command) -> LeaderState {
+    fn leader_state(&self, command: &Command) -> LeaderState {
         let (settings, inputs) = (&self.tick.settings, &self.tick.inputs);
-        let member = inputs.assignment.as_ref().and_then(|assignment| {
-            let member = assignment.members.iter().find(|member| member.robot == settings.robot)?;
-            Some((assignment.epoch, assignment.formation_hash, member))
-        });
         let state = inputs.robot(&settings.robot);
+        let position = state.map_or(Vector2::zeros(), |state| Vector2::new(state.x, state.y));
         let velocity = state.map_or(Vector2::zeros(), |state| {
             let (sin, cos) = libm::sincos(state.theta);
             state.v * Vector2::new(cos, sin)
         });
-        let tracked = command.tracked;
+        let (steered, steered_velocity) = self.tick.steered_point(command).unwrap_or((position, velocity));
+        let wanted = command.wanted;
         let mut message = LeaderState {
             header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
             robot: settings.robot.clone(),
-            position: state.map(|state| point(Vector2::new(state.x, state.y))).unwrap_or_default(),
+            position: point(position),
             theta: state.map_or(0.0, |state| state.theta),
             velocity: point(velocity),
-            goal: command.goal.map(|goal| point(goal.position)).unwrap_or_default(),
-            goal_distance: tracked.map_or(0.0, |tracked| tracked.distance),
-            lyapunov: tracked.map_or(0.0, |tracked| tracked.lyapunov.value),
-            lyapunov_rate: tracked.map_or(0.0, |tracked| tracked.lyapunov.rate),
+            acceleration: wanted.map(|wanted| point(wanted.acceleration)).unwrap_or_default(),
+            point: point(steered),
+            point_velocity: point(steered_velocity),
+            goal: wanted.and_then(|wanted| wanted.drawn).map(point).unwrap_or_default(),
+            goal_distance: wanted.map_or(0.0, |wanted| wanted.distance),
+            lyapunov: wanted.map_or(0.0, |wanted| wanted.lyapunov.value),
+            lyapunov_rate: wanted.map_or(0.0, |wanted| wanted.lyapunov.rate),
             limited_by: command.limits,
             ..LeaderState::default()
         };
-        if let Some((epoch, hash, member)) = member {
-            (message.epoch, message.formation_hash) = (epoch, hash);
-            (message.queue, message.rank) = (member.queue, member.rank);
+        if let Some(assignment) = &inputs.assignment {
+            (message.epoch, message.formation_hash) = (assignment.epoch, assignment.formation_hash);
+            if let Some(member) = assignment.members.iter().find(|member| member.robot == settings.robot) {
+                (message.queue, message.rank) = (member.queue, member.rank);
+            }
         }
-        if let Some((distance, tolerance)) = self.tick.segment_distance(vector(&message.position), message.queue) {
+        if let Some((distance, tolerance)) = self.tick.segment_distance(command) {
             message.segment_distance = distance;
             message.conforms = distance <= tolerance;
         }
         message
     }
 
-    fn bad_message(&mut self, error: &CdrError, port: usize, sink: &mut dyn Sink) {
+    fn dropped(&mut self, error: &Dropped, port: usize, sink: &mut dyn Sink) {
         self.bad_messages += 1;
         let topic = &self.interface.subscriptions[port].topic;
         self.health.set("messages", Condition::Warn, format!("a message on {topic} was dropped: {error}"));
@@ -214,18 +238,14 @@ impl NodeCore for FormationController {
     }
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        self.warn(sink);
         match event {
-            Event::Started => {
-                self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog));
-                if let Some(warning) = self.warning.take() {
-                    sink.log(Level::Warn, &warning);
-                }
-            }
+            Event::Started => self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog)),
             Event::Message { port, cdr, .. } => match self.take(at, port, cdr) {
                 // The team state is the tick (invariant 10); an emergency stop does not wait for it.
                 Ok(()) if port == TEAM_STATE || port == EMERGENCY_STOP => self.drive(at, sink),
                 Ok(()) => {}
-                Err(error) => self.bad_message(&error, port, sink),
+                Err(error) => self.dropped(&error, port, sink),
             },
             Event::Wakeup => self.drive(at, sink),
             Event::Shutdown => self.send(&self.tick.rest(at), sink),
@@ -241,6 +261,9 @@ impl NodeCore for FormationController {
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
         let settings = Settings::read(parameters, &format!("/{}", self.tick.settings.robot))?;
         self.warning = admit_gains(parameters)?;
+        if self.warning.is_none() {
+            self.health.set("gains", Condition::Ok, "in the stable zone");
+        }
         self.tick.settings = settings;
         Ok(())
     }

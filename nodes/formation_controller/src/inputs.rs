@@ -1,11 +1,16 @@
 //! The newest of everything the controller hears, with when it came.
 
+use crate::dynamic::{Ahead, Frame};
+use crate::refusal::Refusal;
+use crate::segments::Segments;
 use std::collections::BTreeMap;
-use trench_core::{RosTime, Steady};
+use std::sync::Arc;
+use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
+use trench_formation::kinematics::PointState;
 use trench_formation::laws::GoalMotion;
 use trench_msgs::msg::{
-    ApparentObstacle, ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, Point2, RobotState,
+    ApparentObstacle, ApparentObstacleArray, Assignment, Goal, Goals, LeaderState, Member, Point2, RobotState,
     RunState, TeamState,
 };
 
@@ -16,16 +21,30 @@ pub(crate) struct Heard<T> {
     pub(crate) message: T,
 }
 
+/// Messages this much older than the last one (s) are late; older ones are of a clock that was set back.
+const PAST: f64 = 10.0;
+
+/// A stamp may be this far ahead of our clock, s.
+const FUTURE: f64 = 0.05;
+
+/// Between two ticks where that is not known yet, s.
+const INTERVAL: f64 = 1.0 / 30.0;
+
 /// What was heard last on each topic.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Inputs {
     pub(crate) team: Option<Heard<TeamState>>,
+    /// Seconds between the exposures of the last two team states.
+    interval: Option<f64>,
     pub(crate) goals: Option<Heard<Goals>>,
     pub(crate) run: Option<RunState>,
     pub(crate) assignment: Option<Assignment>,
-    pub(crate) formation: Option<Formation>,
-    pub(crate) obstacles: Option<Heard<ApparentObstacleArray>>,
+    pub(crate) segments: Option<Arc<Segments>>,
+    pub(crate) obstacles: Option<Heard<Vec<Hull>>>,
+    /// What the others say of themselves, whatever they follow.
     pub(crate) others: BTreeMap<String, Heard<LeaderState>>,
+    /// What teammates say who follow the same assignment.
+    teammates: BTreeMap<String, Heard<LeaderState>>,
     pub(crate) emergency_stop: bool,
 }
 
@@ -37,20 +56,138 @@ pub(crate) struct Hull {
     pub(crate) velocity: Vector2<f64>,
 }
 
-impl Inputs {
-    /// The apparent obstacles heard last.
-    pub(crate) fn hulls(&self) -> Vec<Hull> {
-        let hull = |obstacle: &ApparentObstacle| Hull {
+impl Hull {
+    /// Those of a message.
+    pub(crate) fn all(message: &ApparentObstacleArray) -> Vec<Self> {
+        let hull = |obstacle: &ApparentObstacle| Self {
             points: obstacle.hull.iter().map(vector).collect(),
             radius: obstacle.radius,
             velocity: vector(&obstacle.velocity),
         };
-        self.obstacles.iter().flat_map(|heard| &heard.message.obstacles).map(hull).collect()
+        message.obstacles.iter().map(hull).collect()
+    }
+}
+
+impl Inputs {
+    /// Takes a team state, unless it is older than the one before.
+    ///
+    /// # Errors
+    /// Why it is refused.
+    pub(crate) fn take_team(&mut self, at: Times, message: TeamState) -> Result<(), Refusal> {
+        let stamp = RosTime::from(&message.header.stamp);
+        if let Some(before) = &self.team {
+            let elapsed = stamp.seconds_since(RosTime::from(&before.message.header.stamp));
+            // A clock that was set back, or a bag that begins anew, is no message from the past.
+            if (-PAST..0.0).contains(&elapsed) {
+                return Err(Refusal::Past(-elapsed));
+            }
+            if (0.005..0.2).contains(&elapsed) {
+                self.interval = Some(elapsed);
+            }
+        }
+        self.team = Some(Heard { at: at.steady, message });
+        Ok(())
+    }
+
+    /// Takes goals, unless they are of an assignment that was replaced.
+    ///
+    /// # Errors
+    /// Why they are refused.
+    pub(crate) fn take_goals(&mut self, at: Times, message: Goals) -> Result<(), Refusal> {
+        let ours = self.assignment.as_ref().map_or(0, |assignment| assignment.epoch);
+        if message.epoch < ours && message.epoch != 0 {
+            return Err(Refusal::Epoch { theirs: message.epoch, ours });
+        }
+        self.goals = Some(Heard { at: at.steady, message });
+        Ok(())
+    }
+
+    /// Takes what another robot says of itself; as a teammate it counts only under the same assignment and formation.
+    ///
+    /// # Errors
+    /// Why it does not count.
+    pub(crate) fn take_other(&mut self, at: Times, name: &str, message: LeaderState) -> Result<(), Refusal> {
+        let judged = self.judge(at, name, &message);
+        if judged.is_ok() {
+            self.teammates.insert(name.to_owned(), Heard { at: at.steady, message: message.clone() });
+        }
+        if !matches!(judged, Err(Refusal::Past(_) | Refusal::Future(_) | Refusal::NotFinite)) {
+            self.others.insert(name.to_owned(), Heard { at: at.steady, message });
+        }
+        judged
+    }
+
+    fn judge(&self, at: Times, name: &str, message: &LeaderState) -> Result<(), Refusal> {
+        let numbers = [&message.point, &message.point_velocity].map(|point| point.x + point.y);
+        if !(numbers[0] + numbers[1] + message.goal_distance).is_finite() {
+            return Err(Refusal::NotFinite);
+        }
+        let stamp = RosTime::from(&message.header.stamp);
+        let ahead = stamp.seconds_since(at.ros);
+        if ahead > FUTURE {
+            return Err(Refusal::Future(ahead));
+        }
+        if let Some(before) = self.others.get(name) {
+            let elapsed = stamp.seconds_since(RosTime::from(&before.message.header.stamp));
+            if (-PAST..0.0).contains(&elapsed) {
+                return Err(Refusal::Past(-elapsed));
+            }
+        }
+        let Some(assignment) = &self.assignment else { return Ok(()) };
+        if message.epoch != assignment.epoch {
+            return Err(Refusal::Epoch { theirs: message.epoch, ours: assignment.epoch });
+        }
+        if message.formation_hash != assignment.formation_hash {
+            return Err(Refusal::Formation);
+        }
+        Ok(())
+    }
+
+    /// Seconds between ticks.
+    pub(crate) fn interval(&self) -> f64 {
+        self.interval.unwrap_or(INTERVAL)
     }
 
     /// The state of `robot` in the newest team state.
     pub(crate) fn robot(&self, robot: &str) -> Option<&RobotState> {
         self.team.as_ref()?.message.robots.iter().find(|state| state.name == robot)
+    }
+
+    /// The place of `robot`, if the formation that it is in is known.
+    pub(crate) fn member(&self, robot: &str) -> Option<&Member> {
+        let (assignment, segments) = (self.assignment.as_ref()?, self.segments.as_ref()?);
+        let members = (assignment.formation_hash == segments.formation_hash).then_some(&assignment.members)?;
+        members.iter().find(|member| member.robot == robot)
+    }
+
+    /// Those ahead of `member` in its chain, its leader last.
+    pub(crate) fn members_ahead(&self, member: &Member) -> impl Iterator<Item = &Member> {
+        let (queue, rank) = (member.queue, member.rank);
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        members.filter(move |other| other.queue == queue && other.rank < rank)
+    }
+
+    /// A robot ahead at `time`: what it said last, going on as it moved; none once it has been silent for `age_limit` seconds.
+    pub(crate) fn teammate(&self, name: &str, (now, time): (Steady, RosTime), age_limit: f64) -> Option<Ahead> {
+        let heard = self.teammates.get(name).filter(|heard| now.seconds_since(heard.at) <= age_limit)?;
+        let said = &heard.message;
+        let elapsed = time.seconds_since(RosTime::from(&said.header.stamp)).clamp(0.0, age_limit + INTERVAL);
+        let velocity = vector(&said.point_velocity);
+        let state = PointState { position: vector(&said.point) + elapsed * velocity, velocity };
+        Some(Ahead { state, deviation: said.goal_distance })
+    }
+
+    /// The formation's frame at `time`.
+    pub(crate) fn frame(&self, time: RosTime) -> Option<Frame> {
+        let message = &self.goals.as_ref()?.message;
+        let frame = &message.frame;
+        let origin = GoalMotion {
+            position: vector(&frame.position),
+            velocity: vector(&frame.velocity),
+            acceleration: vector(&frame.acceleration),
+        };
+        let frame = Frame { origin, theta: frame.theta, turn_rate: frame.turn_rate };
+        Some(frame.after(time.seconds_since(RosTime::from(&message.header.stamp)).clamp(-1.0, 1.0)))
     }
 
     /// The goal of `robot` at `time`, if the goals are not older than `age_limit` seconds.

@@ -1,6 +1,7 @@
 //! The controller's parameters.
 
 use crate::Law;
+use crate::dynamic::{self, DynamicSettings, check_damping};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_formation::Vector2;
 use trench_formation::kinematics::{Axle, Ramp};
@@ -14,6 +15,8 @@ pub(crate) struct Settings {
     pub(crate) robot: String,
     pub(crate) team: Vec<String>,
     pub(crate) law: Law,
+    /// The dynamic law, if `law` names one.
+    pub(crate) dynamic: Option<DynamicSettings>,
     pub(crate) dead_band: DeadBand,
     pub(crate) axle: Axle,
     pub(crate) max_wheel_speed: f64,
@@ -27,20 +30,23 @@ pub(crate) struct Settings {
     pub(crate) needs_mapper: bool,
     pub(crate) safety_enabled: bool,
     pub(crate) safety: SafetyFilter,
+    /// s, the longest for which a command may act.
+    pub(crate) period: f64,
     pub(crate) body_radius: f64,
     pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
 }
 
 /// The names `law` may have.
-const LAWS: &str = "one of: robust (3.13), nominal (3.10), direct (3.9), family (4.4)";
+const LAWS: &str = "one of: robust (3.13), nominal (3.10), direct (3.9), family (4.4), goal (5.1), goal_damped (5.2), \
+                    goal_at_rest (5.3), zoned (6.1), nearest (7.4), chain (7.13)";
 
 pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
     use ParameterDescriptor as P;
-    vec![
+    let mut all = vec![
         P::string("robot", "", "name of the robot; empty: the namespace without its slash").read_only(),
         P::string_list("team", &[], "names of all robots whose leader states are heard").read_only(),
-        P::string("law", "robust", "the law: robust (3.13), nominal (3.10), direct (3.9), family (4.4)"),
+        P::string("law", "robust", LAWS),
         P::bool("feed_forward", true, "feed the goal point's velocity forward (robust alone)"),
         P::double("gains.k1", 1.0, "1/s, gain K1").range(0.0, 20.0),
         P::double("gains.k2", 2.5, "1/s, gain K2").range(-20.0, 20.0),
@@ -80,7 +86,9 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             "m, the field: x and y of its low corner, then of its high one",
         ),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
-    ]
+    ];
+    all.extend(dynamic::descriptors());
+    all
 }
 
 impl Settings {
@@ -103,6 +111,7 @@ impl Settings {
             robot,
             team: parameters.str_list("team")?.to_vec(),
             law: law(parameters, dead_band)?,
+            dynamic: DynamicSettings::read(parameters)?,
             dead_band,
             axle: Axle { half_track: double("body.half_axle")? },
             max_wheel_speed: double("wheels.max_speed")?,
@@ -116,6 +125,7 @@ impl Settings {
             needs_mapper: parameters.bool("safety.needs_mapper")?,
             safety_enabled: parameters.bool("safety.enabled")?,
             safety: safety(parameters)?,
+            period: double("safety.period")?,
             body_radius: double("body.radius")?,
             field: field(parameters)?,
             stamped: parameters.bool("stamped")?,
@@ -141,6 +151,8 @@ fn law(parameters: &Parameters, dead_band: DeadBand) -> Result<Law, ConfigError>
             Law::Tracking(Tracking { gains: Robust { k1, k2, k3 }, dead_band })
         }
         "robust" => Law::Robust(Robust { k1, k2, k3 }),
+        // Not in force while a dynamic law is.
+        "goal" | "goal_damped" | "goal_at_rest" | "zoned" | "nearest" | "chain" => Law::Nominal(Nominal { k1, k2 }),
         _ => return Err(parameters.error("law", "is no law", LAWS)),
     };
     Ok(law)
@@ -176,6 +188,9 @@ fn field(parameters: &Parameters) -> Result<Vec<Vector2<f64>>, ConfigError> {
 /// # Errors
 /// When they do not, with the bound, its equation, and the nearest admissible gain.
 pub(crate) fn check_gains(parameters: &Parameters) -> Result<(), ConfigError> {
+    if let Some(dynamic) = DynamicSettings::read(parameters)? {
+        return check_damping(parameters, &dynamic.law);
+    }
     let (k1, k2) = (parameters.f64("gains.k1")?, parameters.f64("gains.k2")?);
     let k3 = if parameters.str("law")? == "robust" { parameters.f64("gains.k3")? } else { k1 };
     let Err(violation) = StableZone::check(Robust { k1, k2, k3 }) else { return Ok(()) };

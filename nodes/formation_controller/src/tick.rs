@@ -1,62 +1,35 @@
 //! One tick: from the newest team state to a command.
 
+use crate::dynamic::Agent;
+use crate::hold::Hold;
 use crate::inputs::Inputs;
 use crate::settings::Settings;
 use crate::{Deviation, Predictor};
-use std::fmt;
-use trench_core::{Condition, RosTime, Times};
+use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
-use trench_formation::curve::Curve;
-use trench_formation::hull::Outline;
-use trench_formation::kinematics::{Pose, Twist, Wheels, saturate};
-use trench_formation::laws::{GoalMotion, Tracked};
-use trench_formation::safety::{MovingOutline, Neighbour, Scene, Wish};
-use trench_msgs::msg::{Goal, LeaderState, Queue, RobotState, RunState};
-use trench_plan::curve_from_message;
+use trench_formation::kinematics::{Limited, Pose, Twist, Wheels, saturate};
+use trench_formation::laws::{GoalMotion, Lyapunov};
+use trench_msgs::msg::{Goal, LeaderState, RobotState, RunState};
 
 /// Speeds by which a robot may miss its command before it counts as deviating, and for how long (invariant 8).
 const DEVIATION: (f64, f64, f64) = (0.08, 2.5, 0.3);
 
 /// A stamp may be this far ahead of our clock, s: more is a pose from the future, which nobody has.
-const CLOCK_ERROR: f64 = 0.005;
+pub(crate) const CLOCK_ERROR: f64 = 0.005;
 
-/// Why the robot is told to rest.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Hold {
-    NotRunning,
-    EmergencyStop,
-    NoTeamState,
-    NotSeen(u8),
-    OldPose(f64),
-    NoGoal,
-    NoMapper,
-    NotFinite,
-}
-
-impl Hold {
-    pub(crate) fn condition(&self) -> Condition {
-        match self {
-            Self::NotRunning => Condition::Ok,
-            Self::NoTeamState | Self::OldPose(_) | Self::NoGoal => Condition::Stale,
-            Self::EmergencyStop | Self::NotSeen(_) | Self::NoMapper | Self::NotFinite => Condition::Error,
-        }
-    }
-}
-
-impl fmt::Display for Hold {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotRunning => write!(formatter, "resting: the run is not running"),
-            Self::EmergencyStop => write!(formatter, "resting: emergency stop"),
-            Self::NoTeamState => write!(formatter, "resting: no team state with this robot was heard"),
-            Self::NotSeen(RobotState::STATUS_AMBIGUOUS) => write!(formatter, "resting: which robot it is, is in doubt"),
-            Self::NotSeen(_) => write!(formatter, "resting: the localizer has lost the robot"),
-            Self::OldPose(age) => write!(formatter, "resting: the pose is {age:.3} s old"),
-            Self::NoGoal => write!(formatter, "resting: no goal is heard"),
-            Self::NoMapper => write!(formatter, "resting: no obstacle mapper is heard"),
-            Self::NotFinite => write!(formatter, "resting: the law gave a number that is not finite"),
-        }
-    }
+/// What a law wants, and what it says of itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wanted {
+    pub(crate) twist: Twist,
+    /// The point that it drives to, m; none while nothing draws the robot.
+    pub(crate) drawn: Option<Vector2<f64>>,
+    /// From there, m.
+    pub(crate) distance: f64,
+    pub(crate) lyapunov: Lyapunov,
+    /// m/s^2, map.
+    pub(crate) acceleration: Vector2<f64>,
+    /// What the safety filter leads round things to.
+    pub(crate) detour: Option<Vector2<f64>>,
 }
 
 /// What a tick decides.
@@ -69,25 +42,20 @@ pub(crate) struct Command {
     pub(crate) limits: u8,
     pub(crate) hold: Option<Hold>,
     pub(crate) pose: Option<Pose>,
-    pub(crate) goal: Option<GoalMotion>,
-    pub(crate) tracked: Option<Tracked>,
-}
-
-/// The curves of a formation, made once, with their tolerances (m); none for a segment that is no curve.
-struct Segments {
-    formation_hash: u64,
-    queues: Vec<(Option<Curve>, f64)>,
+    pub(crate) wanted: Option<Wanted>,
 }
 
 /// The state of a controller between ticks.
 pub(crate) struct Tick {
     pub(crate) settings: Settings,
     pub(crate) inputs: Inputs,
-    predictor: Predictor,
+    pub(crate) predictor: Predictor,
     deviation: Deviation,
     holding: bool,
     last: Option<(RosTime, Wheels)>,
-    segments: Option<Segments>,
+    pub(crate) agent: Agent,
+    /// Velocity of the steered point at the end of the last tick, m/s: where the next one goes on.
+    pub(crate) reference: Option<Vector2<f64>>,
 }
 
 impl Tick {
@@ -100,7 +68,8 @@ impl Tick {
             deviation: Deviation::new(speed, turn, patience),
             holding: false,
             last: None,
-            segments: None,
+            agent: Agent::default(),
+            reference: None,
         }
     }
 
@@ -112,7 +81,7 @@ impl Tick {
             Ok(()) => {}
             Err(hold) => {
                 (command.twist, command.hold) = (Twist::ZERO, Some(hold));
-                self.holding = false;
+                (self.holding, self.reference) = (false, None);
             }
         }
         self.last = Some((acts, self.settings.axle.wheels(command.twist)));
@@ -129,8 +98,7 @@ impl Tick {
             limits: 0,
             hold: None,
             pose: self.inputs.robot(&self.settings.robot).map(pose_of),
-            goal: None,
-            tracked: None,
+            wanted: None,
         }
     }
 
@@ -143,22 +111,39 @@ impl Tick {
         if self.inputs.run.as_ref().is_none_or(|run| run.state != RunState::RUNNING) {
             return Err(Hold::NotRunning);
         }
-        let goal_age_limit = self.settings.goal_age_limit;
-        let goal = self.inputs.goal(&self.settings.robot, acts, at.steady, goal_age_limit);
-        let (goal, phase) = goal.ok_or(Hold::NoGoal)?;
         let ahead = self.predictor.predict(pose_of(&state), command.exposure, acts);
-        let tracked = self.settings.law.track(self.settings.dead_band, ahead, goal, self.holding);
-        self.holding = tracked.holding;
-        (command.goal, command.tracked) = (Some(goal), Some(tracked));
-        if !tracked.twist.is_finite() {
+        let goal_age_limit = self.settings.goal_age_limit;
+        let goal = self.inputs.goal(&self.settings.robot, acts, at.steady, goal_age_limit).ok_or(Hold::NoGoal)?;
+        let wanted = match self.settings.dynamic.clone() {
+            None => self.track(ahead, goal),
+            Some(dynamic) => self.steer(&dynamic, (at, acts), ahead, goal.0, command)?,
+        };
+        command.wanted = Some(wanted);
+        if !wanted.twist.is_finite() {
             return Err(Hold::NotFinite);
         }
-        let followable = self.followable(tracked.twist, acts, command);
-        command.twist = self.safe(at, &state, followable, goal, phase, command)?;
+        let followable = self.followable(wanted.twist, acts, command);
+        command.twist = self.safe(at, &state, followable, wanted.detour, command)?;
         if !command.twist.is_finite() {
             return Err(Hold::NotFinite);
         }
+        self.follow_limits(ahead, wanted.twist, command.twist);
         Ok(())
+    }
+
+    /// A kinematic law of chapter 4.
+    fn track(&mut self, ahead: Pose, (goal, phase): (GoalMotion, u8)) -> Wanted {
+        let tracked = self.settings.law.track(self.settings.dead_band, ahead, goal, self.holding);
+        self.holding = tracked.holding;
+        Wanted {
+            twist: tracked.twist,
+            drawn: Some(goal.position),
+            distance: tracked.distance,
+            lyapunov: tracked.lyapunov,
+            acceleration: Vector2::zeros(),
+            // A goal that moves on is no place that a robot could be in the way of.
+            detour: (phase != Goal::PHASE_MOVING || !self.holding).then_some(goal.position),
+        }
     }
 
     /// The robot's state, if it is one to drive by.
@@ -199,89 +184,14 @@ impl Tick {
         self.settings.axle.twist(ramped.value)
     }
 
-    fn ramped(&self, wanted: Wheels, acts: RosTime) -> trench_formation::kinematics::Limited<Wheels> {
+    fn ramped(&self, wanted: Wheels, acts: RosTime) -> Limited<Wheels> {
         let (before, current) = self.last.unwrap_or((acts, Wheels::default()));
         let interval = acts.seconds_since(before).clamp(0.0, 0.1);
         self.settings.ramp.limit(current, wanted, interval)
     }
-
-    fn safe(
-        &self,
-        at: Times,
-        state: &RobotState,
-        twist: Twist,
-        goal: GoalMotion,
-        phase: u8,
-        command: &mut Command,
-    ) -> Result<Twist, Hold> {
-        if !self.settings.safety_enabled {
-            return Ok(twist);
-        }
-        let obstacles = self.inputs.obstacles.as_ref();
-        let fresh =
-            obstacles.is_some_and(|heard| at.steady.seconds_since(heard.at) <= self.settings.obstacle_age_limit);
-        if self.settings.needs_mapper && !fresh {
-            command.limits |= LeaderState::LIMIT_STALE;
-            return Err(Hold::NoMapper);
-        }
-        let neighbours = self.neighbours(at);
-        let hulls = self.inputs.hulls();
-        let obstacles: Vec<MovingOutline<'_>> = hulls
-            .iter()
-            .map(|hull| MovingOutline {
-                outline: Outline { points: &hull.points, radius: hull.radius },
-                velocity: hull.velocity,
-            })
-            .collect();
-        let scene = Scene { neighbours: &neighbours, obstacles: &obstacles, field: &self.settings.field };
-        // A goal that moves on is no place that a robot could be in the way of.
-        let goal = (phase != Goal::PHASE_MOVING || !self.holding).then_some(goal.position);
-        let now = Twist { v: state.v, omega: state.omega };
-        let filtered = self.settings.safety.apply(pose_of(state), now, Wish { twist, goal }, &scene);
-        if filtered.acted.is_some() {
-            command.limits |= LeaderState::LIMIT_SAFETY;
-        }
-        Ok(filtered.twist)
-    }
-
-    /// The other robots as the vision sees them, and what they say of themselves.
-    fn neighbours(&self, at: Times) -> Vec<Neighbour> {
-        let Some(team) = &self.inputs.team else { return Vec::new() };
-        let others = team.message.robots.iter().filter(|other| other.name != self.settings.robot);
-        let neighbour = |other: &RobotState| {
-            let said = self.inputs.others.get(&other.name);
-            let said = said
-                .filter(|said| at.steady.seconds_since(said.at) <= self.settings.leader_state_age_limit)
-                .map(|said| &said.message);
-            let tracked = other.status == RobotState::STATUS_TRACKED;
-            let obeys = said.is_some_and(|said| said.limited_by & LeaderState::LIMIT_DEVIATES == 0);
-            let arrived = said.is_some_and(|said| said.goal_distance < 2.0 * self.settings.dead_band.resume);
-            let (sin, cos) = libm::sincos(other.theta);
-            Neighbour {
-                position: Vector2::new(other.x, other.y),
-                velocity: other.v * Vector2::new(cos, sin),
-                radius: self.settings.body_radius,
-                cooperative: tracked && obeys,
-                settled: arrived && other.v.abs() < 0.01,
-            }
-        };
-        others.map(neighbour).collect()
-    }
-
-    /// Distance of `position` from the segment of queue `queue`, and the queue's tolerance, both in metres. Formations
-    /// that move with the target are measured where their goal is, not here.
-    pub(crate) fn segment_distance(&mut self, position: Vector2<f64>, queue: u32) -> Option<(f64, f64)> {
-        let formation = self.inputs.formation.as_ref().filter(|formation| formation.header.frame_id == "map")?;
-        if self.segments.as_ref().is_none_or(|known| known.formation_hash != formation.hash) {
-            let curve = |queue: &Queue| (curve_from_message(&queue.segment).ok(), queue.tolerance);
-            let queues = formation.queues.iter().map(curve).collect();
-            self.segments = Some(Segments { formation_hash: formation.hash, queues });
-        }
-        let (curve, tolerance) = self.segments.as_ref()?.queues.get(queue as usize)?;
-        Some((curve.as_ref()?.nearest(position).distance, *tolerance))
-    }
 }
 
-fn pose_of(state: &RobotState) -> Pose {
+/// The pose of a team state's robot.
+pub(crate) fn pose_of(state: &RobotState) -> Pose {
     Pose::new(state.x, state.y, state.theta)
 }

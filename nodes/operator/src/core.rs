@@ -1,19 +1,24 @@
 //! The node core.
 
 use crate::settings::{Settings, descriptors};
-use crate::{Conduct, Step, Verdict, distances, shape_error};
+use crate::{Conduct, Distances, Route, Step, Verdict, distances, shape_error};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Qos, Serve, Sink, StartError, Steady,
-    Subscribe, Times,
+    Advertise, Event, Files, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos, Serve, Sink,
+    StartError, Steady, Subscribe, Times,
 };
 use trench_msgs::Message;
-use trench_msgs::msg::{Goals, RunState, TeamState};
+use trench_msgs::msg::{Goals, LeaderState, RunState, TeamState};
+use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_srvs::{Trigger, TriggerRequest, TriggerResponse};
 
 const TEAM_STATE: usize = 0;
 const GOALS: usize = 1;
 const RUN_STATE: usize = 2;
+/// What robots say of themselves follows, where they are judged by their segments.
+const ROBOTS: usize = 3;
+
+const TARGET: usize = 0;
 
 const ARM: usize = 0;
 const START: usize = 1;
@@ -22,7 +27,12 @@ const RESET: usize = 3;
 
 /// Seconds between looks at the run, and between lines of progress.
 const LOOK: f64 = 0.1;
+/// Seconds between two messages about the target.
+const TARGET_PERIOD: f64 = 0.02;
 const LINE: f64 = 2.0;
+
+/// Room for the target in shared memory: 36 + 36 covariances.
+const SMALL: Local = Local::SharedMemory { max_len: 1024 };
 
 /// Arms, starts, watches, stops, judges.
 pub struct Operator {
@@ -33,6 +43,15 @@ pub struct Operator {
     run: Option<RunState>,
     next_look: Steady,
     next_line: Steady,
+    robots: Vec<String>,
+    /// Distance of each robot from its segment, m, where that is what counts.
+    from_segments: Distances,
+    by_segment: bool,
+    route: Option<Route>,
+    depart: f64,
+    next_target: Steady,
+    /// Seconds since t0 for which the target was led; it stays where it is once the run is over.
+    led: f64,
     over: bool,
 }
 
@@ -49,26 +68,42 @@ pub fn description() -> NodeDescription {
 
 fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let settings = Settings::read(parameters)?;
-    let Settings { duration, tolerance, start_timeout, robots, assignment_node } = settings;
+    let interface = interface(&settings);
+    let Settings { duration, tolerance, start_timeout, robots, route, depart, by_segment, .. } = settings;
     Ok(Box::new(Operator {
-        interface: interface(&assignment_node),
+        interface,
         conduct: Conduct::new(duration, tolerance, start_timeout, robots.len()),
         team: None,
         goals: None,
         run: None,
         next_look: Steady(0),
         next_line: Steady(0),
+        robots,
+        from_segments: Distances::new(),
+        by_segment,
+        route,
+        depart,
+        next_target: Steady(0),
+        led: 0.0,
         over: false,
     }))
 }
 
-fn interface(assignment_node: &str) -> Interface {
+fn interface(settings: &Settings) -> Interface {
+    let assignment_node = &settings.assignment_node;
+    let mut subscriptions = vec![
+        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
+        Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
+        Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
+    ];
+    if settings.by_segment {
+        let state = |robot: &String| Subscribe::to::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE);
+        subscriptions.extend(settings.robots.iter().map(state));
+    }
+    let target = settings.route.iter().map(|_| Advertise::of::<Odometry>("/target", Qos::RELIABLE, SMALL));
     Interface {
-        subscriptions: vec![
-            Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
-            Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
-            Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
-        ],
+        subscriptions,
+        publications: target.collect(),
         clients: ["arm", "start", "stop", "reset"]
             .map(|name| Serve::of::<Trigger>(format!("{assignment_node}/{name}")))
             .into(),
@@ -83,14 +118,29 @@ impl Operator {
             TEAM_STATE => self.team = TeamState::decode(cdr).ok().or(self.team.take()),
             GOALS => self.goals = Goals::decode(cdr).ok().or(self.goals.take()),
             RUN_STATE => self.run = RunState::decode(cdr).ok().or(self.run.take()),
-            _ => {}
+            _ => {
+                if let (Some(robot), Ok(said)) = (self.robots.get(port - ROBOTS), LeaderState::decode(cdr)) {
+                    self.from_segments.insert(robot.clone(), said.segment_distance);
+                }
+            }
         }
+    }
+
+    /// Tells where the target is: at its first waypoint until it sets out.
+    fn lead(&mut self, at: Times, sink: &mut dyn Sink) {
+        let Some(route) = self.route.as_ref().filter(|_| at.steady >= self.next_target) else { return };
+        self.next_target = at.steady.plus_seconds(TARGET_PERIOD);
+        if let Some(elapsed) = self.run.as_ref().and_then(|run| Conduct::elapsed(at.ros, run)) {
+            self.led = elapsed;
+        }
+        sink.publish(TARGET, &route.odometry(self.led - self.depart, at.ros));
     }
 
     fn look(&mut self, at: Times, sink: &mut dyn Sink) {
         self.next_look = at.steady.plus_seconds(LOOK);
         let (distances, shape) = match (&self.team, &self.goals) {
-            (Some(team), Some(goals)) => (distances(team, goals), shape_error(team, goals)),
+            (Some(team), Some(goals)) if !self.by_segment => (distances(team, goals), shape_error(team, goals)),
+            (Some(team), Some(goals)) => (self.from_segments.clone(), shape_error(team, goals)),
             _ => Default::default(),
         };
         match self.conduct.step(at, self.run.as_ref(), &distances) {
@@ -138,10 +188,13 @@ impl NodeCore for Operator {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Started => self.next_look = at.steady,
+            Event::Started => (self.next_look, self.next_target) = (at.steady, at.steady),
             Event::Message { port, cdr, .. } => self.take(port, cdr),
             Event::Response { cdr, .. } => self.answered(cdr),
             _ => {}
+        }
+        if !self.over {
+            self.lead(at, sink);
         }
         if at.steady >= self.next_look && !self.over {
             self.look(at, sink);
@@ -149,7 +202,8 @@ impl NodeCore for Operator {
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        (!self.over).then_some(self.next_look)
+        let next = if self.route.is_some() { self.next_look.min(self.next_target) } else { self.next_look };
+        (!self.over).then_some(next)
     }
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {

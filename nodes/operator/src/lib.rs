@@ -6,8 +6,10 @@
 mod conduct;
 mod core;
 mod progress;
+mod route;
 mod settings;
 
 pub use conduct::{Conduct, Step, Verdict};
 pub use core::{Operator, description};
 pub use progress::{Distances, distances, shape_error};
+pub use route::Route;

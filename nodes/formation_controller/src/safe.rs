@@ -1,0 +1,72 @@
+//! The end of every tick: the safety filter, with what the vision sees and others say.
+
+use crate::hold::Hold;
+use crate::tick::{Command, Tick, pose_of};
+use trench_core::Times;
+use trench_formation::Vector2;
+use trench_formation::hull::Outline;
+use trench_formation::kinematics::Twist;
+use trench_formation::safety::{MovingOutline, Neighbour, Scene, Wish};
+use trench_msgs::msg::{LeaderState, RobotState};
+
+impl Tick {
+    /// The twist after the filter; `goal` is what a way round leads to.
+    pub(crate) fn safe(
+        &self,
+        at: Times,
+        state: &RobotState,
+        twist: Twist,
+        goal: Option<Vector2<f64>>,
+        command: &mut Command,
+    ) -> Result<Twist, Hold> {
+        if !self.settings.safety_enabled {
+            return Ok(twist);
+        }
+        let obstacles = self.inputs.obstacles.as_ref();
+        let fresh =
+            obstacles.is_some_and(|heard| at.steady.seconds_since(heard.at) <= self.settings.obstacle_age_limit);
+        if self.settings.needs_mapper && !fresh {
+            command.limits |= LeaderState::LIMIT_STALE;
+            return Err(Hold::NoMapper);
+        }
+        let neighbours = self.neighbours(at);
+        let hulls = self.inputs.obstacles.iter().flat_map(|heard| &heard.message);
+        let obstacles: Vec<MovingOutline<'_>> = hulls
+            .map(|hull| MovingOutline {
+                outline: Outline { points: &hull.points, radius: hull.radius },
+                velocity: hull.velocity,
+            })
+            .collect();
+        let scene = Scene { neighbours: &neighbours, obstacles: &obstacles, field: &self.settings.field };
+        let now = Twist { v: state.v, omega: state.omega };
+        let filtered = self.settings.safety.apply(pose_of(state), now, Wish { twist, goal }, &scene);
+        if filtered.acted.is_some() {
+            command.limits |= LeaderState::LIMIT_SAFETY;
+        }
+        Ok(filtered.twist)
+    }
+
+    /// The other robots as the vision sees them, and what they say of themselves.
+    fn neighbours(&self, at: Times) -> Vec<Neighbour> {
+        let Some(team) = &self.inputs.team else { return Vec::new() };
+        let others = team.message.robots.iter().filter(|other| other.name != self.settings.robot);
+        let neighbour = |other: &RobotState| {
+            let said = self.inputs.others.get(&other.name);
+            let said = said
+                .filter(|said| at.steady.seconds_since(said.at) <= self.settings.leader_state_age_limit)
+                .map(|said| &said.message);
+            let tracked = other.status == RobotState::STATUS_TRACKED;
+            let obeys = said.is_some_and(|said| said.limited_by & LeaderState::LIMIT_DEVIATES == 0);
+            let arrived = said.is_some_and(|said| said.goal_distance < 2.0 * self.settings.dead_band.resume);
+            let (sin, cos) = libm::sincos(other.theta);
+            Neighbour {
+                position: Vector2::new(other.x, other.y),
+                velocity: other.v * Vector2::new(cos, sin),
+                radius: self.settings.body_radius,
+                cooperative: tracked && obeys,
+                settled: arrived && other.v.abs() < 0.01,
+            }
+        };
+        others.map(neighbour).collect()
+    }
+}
