@@ -1,6 +1,7 @@
 //! The subcommands.
 
 mod bag;
+mod check;
 mod launch;
 mod plot;
 mod sim;
@@ -15,6 +16,7 @@ use std::process::ExitCode;
 #[command(name = "trench", version)]
 pub(crate) enum Command {
     Bag(bag::Arguments),
+    Check(check::Arguments),
     Launch(launch::Arguments),
     Plot(plot::Arguments),
     Sim(sim::Arguments),
@@ -25,6 +27,7 @@ impl Command {
     pub(crate) fn run(self) -> ExitCode {
         match self {
             Self::Bag(arguments) => bag::run(&arguments),
+            Self::Check(arguments) => check::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),

@@ -118,3 +118,30 @@ proptest! {
         prop_assert!((written.1.curvature - built_in.1.curvature).abs() < 1e-5);
     }
 }
+
+/// Points of attraction (6.3) and projections, against closed forms and sampling.
+#[test]
+fn curves_seen_along_a_direction() {
+    let wave = curve("sin(x)", -TAU, TAU);
+    let (up, right) = (Vector2::new(0.0, 1.0), Vector2::new(1.0, 0.0));
+    let (low, high) = wave.extent(up);
+    assert!((low + 1.0).abs() < 1e-10 && (high - 1.0).abs() < 1e-10);
+    assert_eq!(wave.extent(right), (-TAU, TAU));
+    let met = wave.met_along(Vector2::new(0.7, 5.0), -up);
+    assert_eq!(met.len(), 1);
+    assert!(
+        (met[0].point - Vector2::new(0.7, libm::sin(0.7))).norm() < 1e-9
+            && (met[0].distance - (5.0 - libm::sin(0.7))).abs() < 1e-9
+    );
+    let zeros: Vec<f64> = wave.met_along(Vector2::new(50.0, 0.0), right).iter().map(|foot| foot.point.x).collect();
+    assert_eq!(zeros.len(), 5, "{zeros:?}");
+    assert!(zeros.iter().zip([-TAU, -PI, 0.0, PI, TAU]).all(|(found, x)| (found - x).abs() < 1e-9), "{zeros:?}");
+    assert!(wave.met_along(Vector2::new(0.0, 1.5), right).is_empty());
+    let open = Curve::new(&CurveShape::Line(Vector2::zeros(), right), false, true).unwrap();
+    assert_eq!(open.extent(right), (0.0, f64::INFINITY));
+    let beyond = open.met_along(Vector2::new(3.0, 2.0), -up);
+    assert!(
+        beyond.len() == 1 && (beyond[0].arc_length - 3.0).abs() < 1e-12 && (beyond[0].distance - 2.0).abs() < 1e-12
+    );
+    assert!(open.met_along(Vector2::new(-1.0, 2.0), -up).is_empty());
+}

@@ -3,6 +3,7 @@
 //! A [`Curve`] lives in the formation's frame; [`Placed`] looks at it from the frame in which the formation moves.
 mod box_tree;
 mod build;
+mod directed;
 mod encroachment;
 mod error;
 mod graph;

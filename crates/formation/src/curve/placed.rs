@@ -49,6 +49,20 @@ impl<'a> Placed<'a> {
         self.to_map(self.curve.track(self.to_curve(point), arc_length))
     }
 
+    /// As [`Curve::extent`], along an axis of `map`.
+    pub fn extent(&self, axis: Vector2<f64>) -> (f64, f64) {
+        let (low, high) = self.curve.extent(self.map_from_curve.rotation.inverse() * axis);
+        let offset = self.map_from_curve.translation.vector.dot(&axis);
+        (low + offset, high + offset)
+    }
+
+    /// As [`Curve::met_along`].
+    pub fn met_along(&self, point: Vector2<f64>, direction: Vector2<f64>) -> Vec<Foot> {
+        let direction = self.map_from_curve.rotation.inverse() * direction;
+        let feet = self.curve.met_along(self.to_curve(point), direction);
+        feet.into_iter().map(|foot| self.to_map(foot)).collect()
+    }
+
     fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.inverse_transform_point(&point.into()).coords
     }

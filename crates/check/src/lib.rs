@@ -1,0 +1,24 @@
+//! Configuration against the theory, before anything moves: what `trench check` says.
+//!
+//! Everything here takes what has been read (parameters, plans) and gives [`Verdict`]s: what was looked at, whether it holds,
+//! the equation that decides. Nothing reads a file.
+
+mod chain;
+mod controller;
+mod direction;
+mod potential;
+mod queue;
+mod report;
+mod team;
+mod verdict;
+mod zones;
+
+pub use chain::{ChainOfRobots, chain};
+pub use controller::{Controller, controller};
+pub use direction::{Approach, direction};
+pub use potential::potential;
+pub use queue::formation;
+pub use report::Report;
+pub use team::{Team, team};
+pub use verdict::Verdict;
+pub use zones::zones;

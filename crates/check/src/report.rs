@@ -1,0 +1,55 @@
+//! All verdicts together.
+
+use crate::Verdict;
+use core::fmt;
+use serde::Serialize;
+
+/// Verdicts in the order in which they were reached; equal ones about several subjects are one.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Report {
+    /// Whether all hold.
+    pub holds: bool,
+    /// All of them.
+    pub verdicts: Vec<Verdict>,
+}
+
+impl Report {
+    /// From all verdicts.
+    pub fn new(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
+        let mut kept: Vec<Verdict> = Vec::new();
+        for verdict in verdicts {
+            let same = |other: &&mut Verdict| {
+                (other.check, other.holds, &other.finding, other.equation)
+                    == (verdict.check, verdict.holds, &verdict.finding, verdict.equation)
+            };
+            match kept.iter_mut().find(same) {
+                Some(other) => {
+                    let new = verdict.subjects.into_iter().filter(|subject| !other.subjects.contains(subject));
+                    let new: Vec<String> = new.collect();
+                    other.subjects.extend(new);
+                }
+                None => kept.push(verdict),
+            }
+        }
+        Self { holds: kept.iter().all(|verdict| verdict.holds), verdicts: kept }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for verdict in &self.verdicts {
+            let mark = if verdict.holds { "holds" } else { "FAILS" };
+            writeln!(formatter, "{mark}  {}: {}", verdict.check, verdict.subjects.join(", "))?;
+            writeln!(formatter, "       {}", verdict.finding)?;
+            writeln!(formatter, "       by {}", verdict.equation)?;
+        }
+        let (all, failed) = (self.verdicts.len(), self.verdicts.iter().filter(|verdict| !verdict.holds).count());
+        match (all, failed) {
+            (0, _) => writeln!(formatter, "Nothing to judge."),
+            (1, 0) => writeln!(formatter, "The verdict holds."),
+            (_, 0) => writeln!(formatter, "All {all} verdicts hold."),
+            (_, 1) => writeln!(formatter, "1 of {all} verdicts fails."),
+            _ => writeln!(formatter, "{failed} of {all} verdicts fail."),
+        }
+    }
+}

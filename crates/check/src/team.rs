@@ -1,0 +1,61 @@
+//! What is known of the robots, from a controller's parameters.
+
+use trench_config::{ConfigError, Parameters};
+
+/// What a formation needs to know of the robots that take it up; lengths in m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Team {
+    /// How many robots take part, if that is known.
+    pub robots: Option<usize>,
+    /// Radius of a robot.
+    pub radius: f64,
+    /// Kept between bodies besides.
+    pub margin: f64,
+    /// m/s, a wheel's largest.
+    pub wheel_speed: f64,
+    /// Low and high x, low and high y of the field.
+    pub field: [[f64; 2]; 2],
+    /// 1/s, of the kinematic laws.
+    pub approach_gain: f64,
+    /// Whether the velocity of a goal point is fed forward.
+    pub feeds_forward: bool,
+    /// Radii of the zones, if the law has zones.
+    pub zones: Option<[f64; 5]>,
+    /// Stiffness of the trench's bottom (1/s^2) and damping (1/s), if the law has them.
+    pub chain_gains: Option<(f64, f64)>,
+}
+
+/// Reads a team from the parameters of one formation_controller.
+///
+/// # Errors
+/// When one is missing that every controller declares.
+pub fn team(parameters: &Parameters, robots: Option<usize>) -> Result<Team, ConfigError> {
+    let [low_x, low_y, high_x, high_y] = parameters.f64_array("field")?;
+    let law = parameters.str("law")?;
+    let is_chained = matches!(law, "zoned" | "chain");
+    let zones = if is_chained { Some(parameters.f64_array("zones.radii")?) } else { None };
+    let is_dynamic = !matches!(law, "robust" | "nominal" | "direct" | "family");
+    let kinematic_feed = law == "robust" && parameters.bool("feed_forward")?;
+    Ok(Team {
+        robots,
+        radius: parameters.f64("body.radius")?,
+        margin: parameters.f64("safety.margin")?,
+        wheel_speed: parameters.f64("wheels.max_speed")?,
+        field: [[low_x, high_x], [low_y, high_y]],
+        approach_gain: parameters.f64("gains.k1")?,
+        feeds_forward: kinematic_feed || is_dynamic,
+        zones,
+        chain_gains: if is_chained { chain_gains(parameters)? } else { None },
+    })
+}
+
+/// Phi''(0) and k; none for trenches without a curvature at their bottom.
+fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigError> {
+    let (alpha, a) = (parameters.f64("trench.alpha")?, parameters.f64("trench.a")?);
+    let stiffness = match parameters.str("trench.shape")? {
+        "hyperbolic" | "quadratic" | "saturated" => alpha / a,
+        "square_root" => 2.0,
+        _ => return Ok(None),
+    };
+    Ok(Some((stiffness, parameters.f64("damping")?)))
+}

@@ -1,0 +1,61 @@
+//! One thing that was looked at.
+
+use serde::Serialize;
+
+/// One thing that was looked at, and whether it is as the theory asks.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Verdict {
+    /// What was looked at: `gains`, `potential`, `zones` ...
+    pub check: &'static str,
+    /// Of which files, nodes or queues.
+    pub subjects: Vec<String>,
+    /// Whether it holds.
+    pub holds: bool,
+    /// What was found, with its numbers; if it fails, what would be right.
+    pub finding: String,
+    /// The equation or section that decides.
+    pub equation: &'static str,
+}
+
+impl Verdict {
+    /// A verdict about one subject.
+    pub(crate) fn new(
+        check: &'static str,
+        subject: &str,
+        holds: bool,
+        finding: impl Into<String>,
+        equation: &'static str,
+    ) -> Self {
+        Self { check, subjects: vec![subject.to_owned()], holds, finding: finding.into(), equation }
+    }
+}
+
+/// A number for people: four significant digits.
+pub(crate) fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let digits = (3.0 - libm::floor(libm::log10(value.abs()))).clamp(0.0, 12.0) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (0.16, "0.16"),
+            (12.345_67, "12.35"),
+            (-1.5, "-1.5"),
+            (1234.56, "1235"),
+            (6e-7, "0.0000006"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+}

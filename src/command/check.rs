@@ -1,0 +1,68 @@
+//! `trench check`: configuration against the theory, before anything moves.
+
+mod gather;
+mod kind;
+
+use super::launch::name_and_value;
+use super::say;
+use clap::Parser;
+use gather::{CheckError, Gathered, gather};
+use kind::kind;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use trench_check::{Report, Verdict, controller, formation};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  every verdict holds
+  1  a verdict fails
+  2  a file cannot be read as what it is: file, line, key and remedy are on standard error";
+
+/// Judges configuration by the theory, before anything moves: gains, potentials, zones, room, chains.
+///
+/// Files are formation files, parameter files, launch files, in any number: formations are judged for the robots that the
+/// other files describe, or else for the controller's defaults. Each verdict names the equation that decides
+/// (docs/check.md).
+#[derive(Parser)]
+#[command(after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    /// Formation, parameter and launch files.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// An argument of the launch files; may be given several times.
+    #[arg(long = "arg", value_name = "NAME:=VALUE", value_parser = name_and_value)]
+    arguments: Vec<(String, String)>,
+    /// Prints the verdicts as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the subcommand.
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+    match judge(arguments) {
+        Ok(report) => {
+            if arguments.json {
+                say(format_args!("{:#}\n", serde_json::json!(report)));
+            } else {
+                say(&report);
+            }
+            ExitCode::from(u8::from(!report.holds))
+        }
+        Err(error) => {
+            eprintln!("trench check: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn judge(arguments: &Arguments) -> Result<Report, CheckError> {
+    let Gathered { controllers, formations, team } = gather(&arguments.files, &arguments.arguments)?;
+    let mut verdicts: Vec<Verdict> = Vec::new();
+    for one in &controllers {
+        verdicts.extend(controller(one)?);
+    }
+    for (name, plan) in &formations {
+        verdicts.extend(formation(name, plan, &team));
+    }
+    Ok(Report::new(verdicts))
+}

@@ -1,0 +1,138 @@
+//! Reading the files, and those that they lead to.
+
+use super::kind;
+use super::kind::Kind;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use trench_check::{Controller, Team, team};
+use trench_config::params::{Source, resolve};
+use trench_config::{ConfigError, Parameters};
+use trench_core::Files;
+use trench_core::arguments::{Arguments, Names};
+use trench_harness::{Disk, LoadError, catalog};
+use trench_launch::Process;
+use trench_plan::Plan;
+
+/// A file that cannot be judged.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CheckError {
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Parameters(Vec<ConfigError>),
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    #[error("no node is called {0}")]
+    NoNode(&'static str),
+}
+
+/// All there is to judge.
+pub(super) struct Gathered {
+    pub(super) controllers: Vec<Controller>,
+    /// By file.
+    pub(super) formations: Vec<(String, Plan)>,
+    /// The robots that take the formations up.
+    pub(super) team: Team,
+}
+
+const CONTROLLER: &str = "formation_controller";
+const ASSIGNMENT: &str = "leader_assignment";
+
+pub(super) fn gather(files: &[PathBuf], arguments: &[(String, String)]) -> Result<Gathered, CheckError> {
+    let (mut controllers, mut formations, mut robots) = (Vec::new(), Vec::new(), None);
+    let mut parameter_files: Vec<(String, String)> = Vec::new();
+    for path in files {
+        let name = path.display().to_string();
+        let text = Disk.read("FILE", &name)?;
+        match kind(&name, &text)? {
+            Kind::Formation => formations.push((name.clone(), trench_plan::parse(&name, &text)?)),
+            Kind::Parameters => parameter_files.push((name, text)),
+            Kind::Launch => {
+                let launched = launch(path, arguments)?;
+                controllers.extend(launched.controllers);
+                formations.extend(launched.formations);
+                robots = launched.robots.or(robots);
+            }
+        }
+    }
+    let default = from_files(&parameter_files)?;
+    let known = controllers.first().map_or(&default.parameters, |controller| &controller.parameters);
+    let team = team(known, robots)?;
+    if !parameter_files.is_empty() {
+        controllers.push(default);
+    }
+    Ok(Gathered { controllers, formations, team })
+}
+
+/// The controller that parameter files describe: in any namespace, with defaults for what they leave out.
+fn from_files(files: &[(String, String)]) -> Result<Controller, CheckError> {
+    let sources: Vec<Source<'_>> = files.iter().map(|(name, text)| Source::File { name, text }).collect();
+    let node = catalog::node(CONTROLLER).ok_or(CheckError::NoNode(CONTROLLER))?;
+    let parameters = resolve(&sources, "/robot1", CONTROLLER, &(node.parameters)()).map_err(CheckError::Parameters)?;
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    Ok(Controller { name: names.join(" + "), parameters })
+}
+
+struct Launched {
+    controllers: Vec<Controller>,
+    formations: Vec<(String, Plan)>,
+    robots: Option<usize>,
+}
+
+/// The controllers and the formation that a launch file starts.
+fn launch(file: &Path, arguments: &[(String, String)]) -> Result<Launched, CheckError> {
+    let known: Vec<String> = trench_launch::arguments(file)?.into_iter().map(|argument| argument.name).collect();
+    let arguments: BTreeMap<String, String> =
+        arguments.iter().filter(|(name, _)| known.contains(name)).cloned().collect();
+    let plan = trench_harness::plan(file, &arguments)?;
+    let mut launched = Launched { controllers: Vec::new(), formations: Vec::new(), robots: None };
+    for process in &plan.processes {
+        match program(process) {
+            Some(CONTROLLER) => {
+                let parameters = parameters(CONTROLLER, process)?;
+                launched.controllers.push(Controller { name: full_name(process), parameters });
+            }
+            Some(ASSIGNMENT) => {
+                let parameters = parameters(ASSIGNMENT, process)?;
+                launched.robots = Some(parameters.str_list("robots")?.len());
+                let path = parameters.str("formation_file")?;
+                if !path.is_empty() {
+                    let plan = trench_plan::parse(path, &Disk.read("formation_file", path)?)?;
+                    launched.formations.push((readable(path), plan));
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(launched)
+}
+
+/// The name of a node in the graph; its label where its arguments say none.
+fn full_name(process: &Process) -> String {
+    match Arguments::parse(process.argv.iter().skip(1).cloned()) {
+        Ok(arguments) => {
+            let names = Names::new(&arguments.remaps, CONTROLLER);
+            format!("{}/{}", names.namespace.trim_end_matches('/'), names.node)
+        }
+        Err(_) => process.label.clone(),
+    }
+}
+
+/// A path without detours, from the present folder on if it lies there.
+fn readable(path: &str) -> String {
+    let Ok(absolute) = std::fs::canonicalize(path) else { return path.to_owned() };
+    let here = std::env::current_dir().and_then(std::fs::canonicalize);
+    match here.ok().and_then(|here| absolute.strip_prefix(here).ok().map(Path::to_owned)) {
+        Some(relative) => relative.display().to_string(),
+        None => absolute.display().to_string(),
+    }
+}
+
+fn program(process: &Process) -> Option<&str> {
+    Path::new(process.argv.first()?).file_name()?.to_str()
+}
+
+fn parameters(node: &'static str, process: &Process) -> Result<Parameters, CheckError> {
+    let node = catalog::node(node).ok_or(CheckError::NoNode(node))?;
+    Ok(trench_harness::parameters(&node, process, &Disk)?)
+}
