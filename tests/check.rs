@@ -28,7 +28,9 @@ fn judged(name: &str, arguments: &[&str], code: i32) {
 #[test]
 fn what_is_shipped_holds() {
     judged("square.txt", &["launch/square.launch.yaml"], 0);
-    judged("triangle_thesis.txt", &["launch/triangle.launch.yaml", "--arg", "profile:=thesis"], 0);
+    judged("column.txt", &["launch/column.launch.yaml"], 0);
+    judged("wings.txt", &["config/formations/wings.yaml", "config/profiles/chain.yaml"], 0);
+    judged("triangle_thesis.txt", &["launch/triangle.launch.yaml", "profile:=thesis"], 0);
 }
 
 #[test]
@@ -59,6 +61,10 @@ fn what_cannot_be_read_is_named_with_its_line() {
         &["tests/check/none.yaml"],
         "trench check: tests/check/none.yaml: FILE = tests/check/none.yaml: No such file or directory (os error 2); name a \
          file that can be read\n",
+    );
+    refused(
+        &["launch/square.launch.yaml", "profil:=thesis"],
+        "trench check: no launch file that is checked has the argument profil; trench launch FILE --show-args lists them\n",
     );
     assert_eq!(check(&[]).status.code(), Some(2));
 }

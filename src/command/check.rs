@@ -3,12 +3,10 @@
 mod gather;
 mod kind;
 
-use super::launch::name_and_value;
 use super::say;
 use clap::Parser;
 use gather::{CheckError, Gathered, gather};
 use kind::kind;
-use std::path::PathBuf;
 use std::process::ExitCode;
 use trench_check::{Report, Verdict, controller, formation};
 
@@ -26,12 +24,9 @@ Exit codes:
 #[derive(Parser)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
-    /// Formation, parameter and launch files.
-    #[arg(required = true, value_name = "FILE")]
-    files: Vec<PathBuf>,
-    /// An argument of the launch files; may be given several times.
-    #[arg(long = "arg", value_name = "NAME:=VALUE", value_parser = name_and_value)]
-    arguments: Vec<(String, String)>,
+    /// Formation, parameter and launch files, and arguments of the launch files.
+    #[arg(required = true, value_name = "FILE | NAME:=VALUE")]
+    words: Vec<String>,
     /// Prints the verdicts as JSON.
     #[arg(long)]
     json: bool,
@@ -56,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn judge(arguments: &Arguments) -> Result<Report, CheckError> {
-    let Gathered { controllers, formations, team } = gather(&arguments.files, &arguments.arguments)?;
+    let Gathered { controllers, formations, team } = gather(&arguments.words)?;
     let mut verdicts: Vec<Verdict> = Vec::new();
     for one in &controllers {
         verdicts.extend(controller(one)?);

@@ -105,7 +105,7 @@ fn separation(subject: &str, plan: &Plan, team: &Team) -> Verdict {
 fn room(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
     let robots = queue.places.len();
     let subject = format!("{subject}, queue {}", queue.name);
-    let [_, rho_hat, rho, ..] = team.zones?;
+    let [rho_underbar, rho_hat, rho, rho_check, _] = team.zones?;
     let (from, to) = queue.curve.domain();
     let (needed, length) = (rho_hat * robots.saturating_sub(1) as f64, to - from);
     let verdict = |holds, finding| {
@@ -114,7 +114,7 @@ fn room(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
             &subject,
             holds,
             finding,
-            "(n - 1) rho_hat <= length; rho_hat <= spacing <= rho (6.4)",
+            "(n - 1) rho_hat <= length; from zones 2 to 4 followers settle in zone 3 (6.4)",
         ))
     };
     if needed > length {
@@ -127,11 +127,21 @@ fn room(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
     let length = if length.is_finite() { format!("{} m long", number(length)) } else { "open".to_owned() };
     let finding = format!("{robots} robots need {} m of segment, which is {length}", number(needed));
     match queue.chain.filter(|chain| chain.robots > 1) {
-        Some(chain) if !(rho_hat..=rho).contains(&chain.spacing) => {
+        Some(chain) => {
             let (spacing, low, high) = (number(chain.spacing), number(rho_hat), number(rho));
-            verdict(false, format!("places are {spacing} m apart, outside the neutral zone: take {low} to {high} m"))
+            if !(chain.spacing > rho_underbar && chain.spacing < rho_check) {
+                return verdict(
+                    false,
+                    format!("places are {spacing} m apart, outside zones 2 to 4: take {low} to {high} m"),
+                );
+            }
+            let settled = if (rho_hat..=rho).contains(&chain.spacing) {
+                "are neutral".to_owned()
+            } else {
+                format!("will be left for the neutral zone, {low} to {high} m")
+            };
+            verdict(true, format!("{finding}; places {spacing} m apart {settled}"))
         }
-        Some(chain) => verdict(true, format!("{finding}; places {} m apart are neutral", number(chain.spacing))),
         None => verdict(true, finding),
     }
 }
@@ -209,10 +219,12 @@ fn are_parallel(plan: &Plan) -> bool {
     tangents.all(|tangent| first.perp(&tangent).abs() < PARALLEL && first.dot(&tangent) > 0.0)
 }
 
-/// The chain bound, for robots that start within the queue's tolerance: nobody may reach zone 1.
+/// The chain bound, for robots that start within the queue's tolerance of a place: nobody may reach zone 1, so no error in the
+/// distance to the one ahead may exceed spacing - rho_underbar.
 fn growth(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
-    let ([rho_underbar, rho_hat, ..], gains) = (team.zones?, team.chain_gains?);
+    let ([rho_underbar, rho_hat, rho, ..], gains) = (team.zones?, team.chain_gains?);
     let robots = queue.places.len();
-    let of = ChainOfRobots { robots, gains, initial_error: queue.tolerance, tolerance: rho_hat - rho_underbar };
+    let spacing = queue.chain.map_or(rho_hat, |chain| chain.spacing).min(rho);
+    let of = ChainOfRobots { robots, gains, initial_error: queue.tolerance, tolerance: spacing - rho_underbar };
     (robots > 1).then(|| chain(&format!("{subject}, queue {}", queue.name), &of))
 }

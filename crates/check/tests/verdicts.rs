@@ -63,7 +63,8 @@ fn chains_are_bounded_rank_by_rank() {
     check(
         &chain("line", &ChainOfRobots { gains: (2.0, -3.0), ..of }),
         false,
-        "K = (2, -3): robot 1 of the chain: the closed loop is not Hurwitz",
+        "K = (2, -3): robot 1 of the chain: the closed loop A - B K is not Hurwitz: its error does not decay (Theorem 8.2.1 needs a gain \
+         K that makes it so)",
     );
 }
 
@@ -127,7 +128,13 @@ fn chains_on_segments() {
         "6 robots need 1.3 m of segment, which is 2.1 m long; places 0.3 m apart are neutral",
     );
     let wide = judged(&CHAIN.replace("0.30", "0.40"), &team);
-    check(&one(&wide, "room"), false, "places are 0.4 m apart, outside the neutral zone: take 0.26 to 0.34 m");
+    check(
+        &one(&wide, "room"),
+        true,
+        "6 robots need 1.3 m of segment, which is 2.1 m long; places 0.4 m apart will be left for the neutral zone, 0.26 to 0.34 m",
+    );
+    let touching = judged(&CHAIN.replace("0.30", "0.20"), &team);
+    check(&one(&touching, "room"), false, "places are 0.2 m apart, outside zones 2 to 4: take 0.26 to 0.34 m");
     let wider = Team { zones: Some([0.20, 0.46, 0.54, 0.65, 1.2]), ..team.clone() };
     check(
         &one(&judged(CHAIN, &wider), "room"),

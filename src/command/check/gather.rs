@@ -1,9 +1,9 @@
 //! Reading the files, and those that they lead to.
 
+use super::super::launch::name_and_value;
 use super::kind;
 use super::kind::Kind;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use trench_check::{Controller, Team, team};
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
@@ -22,6 +22,8 @@ pub(super) enum CheckError {
     Parameters(Vec<ConfigError>),
     #[error(transparent)]
     Load(#[from] LoadError),
+    #[error("no launch file that is checked has the argument {0}; trench launch FILE --show-args lists them")]
+    Argument(String),
     #[error("no node is called {0}")]
     NoNode(&'static str),
 }
@@ -38,7 +40,11 @@ pub(super) struct Gathered {
 const CONTROLLER: &str = "formation_controller";
 const ASSIGNMENT: &str = "leader_assignment";
 
-pub(super) fn gather(files: &[PathBuf], arguments: &[(String, String)]) -> Result<Gathered, CheckError> {
+/// Reads all that `words` name: files, and `NAME:=VALUE`.
+pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
+    let arguments: Vec<(String, String)> = words.iter().filter_map(|word| name_and_value(word).ok()).collect();
+    let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
+    let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
     let (mut controllers, mut formations, mut robots) = (Vec::new(), Vec::new(), None);
     let mut parameter_files: Vec<(String, String)> = Vec::new();
     for path in files {
@@ -48,12 +54,18 @@ pub(super) fn gather(files: &[PathBuf], arguments: &[(String, String)]) -> Resul
             Kind::Formation => formations.push((name.clone(), trench_plan::parse(&name, &text)?)),
             Kind::Parameters => parameter_files.push((name, text)),
             Kind::Launch => {
-                let launched = launch(path, arguments)?;
+                let known: Vec<String> =
+                    trench_launch::arguments(path)?.into_iter().map(|argument| argument.name).collect();
+                unknown.retain(|name| !known.contains(name));
+                let launched = launch(path, arguments.iter().filter(|(name, _)| known.contains(name)))?;
                 controllers.extend(launched.controllers);
                 formations.extend(launched.formations);
                 robots = launched.robots.or(robots);
             }
         }
+    }
+    if let Some(name) = unknown.first() {
+        return Err(CheckError::Argument((*name).clone()));
     }
     let default = from_files(&parameter_files)?;
     let known = controllers.first().map_or(&default.parameters, |controller| &controller.parameters);
@@ -80,11 +92,8 @@ struct Launched {
 }
 
 /// The controllers and the formation that a launch file starts.
-fn launch(file: &Path, arguments: &[(String, String)]) -> Result<Launched, CheckError> {
-    let known: Vec<String> = trench_launch::arguments(file)?.into_iter().map(|argument| argument.name).collect();
-    let arguments: BTreeMap<String, String> =
-        arguments.iter().filter(|(name, _)| known.contains(name)).cloned().collect();
-    let plan = trench_harness::plan(file, &arguments)?;
+fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>) -> Result<Launched, CheckError> {
+    let plan = trench_harness::plan(file, &arguments.cloned().collect())?;
     let mut launched = Launched { controllers: Vec::new(), formations: Vec::new(), robots: None };
     for process in &plan.processes {
         match program(process) {
