@@ -29,7 +29,7 @@ pub fn chain(subject: &str, chain: &ChainOfRobots) -> Verdict {
     let (position, velocity) = chain.gains;
     let rest = chain.robots.min(LONGEST);
     let model = |count: usize| vec![QueueRobot::double_integrator_with(position, velocity); count];
-    let errors = vec![chain.initial_error; LONGEST];
+    let errors = [chain.initial_error; LONGEST];
     let bounds = cascade_bounds(&model(rest), Coupling::Realisable, &errors[..rest]);
     let recursion = input_to_state(&model(rest), Coupling::Realisable, 0.5);
     match (bounds, recursion) {
