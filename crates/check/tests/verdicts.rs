@@ -1,5 +1,4 @@
 //! The texts of verdicts that depend on numbers alone.
-#![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 
 use trench_check::{Approach, ChainOfRobots, Team, Verdict, chain, direction, formation, potential, zones};
 use trench_formation::Vector2;
