@@ -8,7 +8,7 @@ use trench_formation::hull::{Obstacle, Outline, Shape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Attracting, GoalMotion, NearestAttraction, Push};
 use trench_formation::seek::{LeaderRule, SeekSettings};
-use trench_formation::simulate::{Carriage, ChainScenario, ChainSimulation, Encroaching, Remedies};
+use trench_formation::simulate::{Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies};
 use trench_formation::trench::Hyperbolic;
 use trench_formation::zoning::{Edge, ObstaclePotential, Radii, Sharpness, Zoning};
 
@@ -128,6 +128,7 @@ fn the_simulation_frees_a_caught_robot() {
             },
             encroaching: Encroaching::Obstacles,
             remedies,
+            options: Options::default(),
             step: 0.001,
             steps_per_tick: 1,
         };

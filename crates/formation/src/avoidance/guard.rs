@@ -34,6 +34,13 @@ impl Guard {
         Self { radius: self.radius - depth, ..self }
     }
 
+    /// The guard displaced by `by` (m), with an obstacle that moves.
+    #[must_use]
+    pub fn moved(self, by: Vector2<f64>) -> Self {
+        let Self { centre, ends, apex, radius } = self;
+        Self { centre: centre + by, ends: ends.map(|end| end + by), apex: apex.map(|apex| apex + by), radius }
+    }
+
     /// Distance and direction of obstacle and guard together: whichever is nearer.
     pub fn approach(&self, outline: &Outline<'_>, point: Vector2<f64>) -> Approach {
         let bare = outline.approach(point);

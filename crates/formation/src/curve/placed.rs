@@ -63,6 +63,11 @@ impl<'a> Placed<'a> {
         feet.into_iter().map(|foot| self.to_map(foot)).collect()
     }
 
+    /// A direction of the curve's frame.
+    pub fn direction_in_map(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        self.map_from_curve.rotation * direction
+    }
+
     fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.inverse_transform_point(&point.into()).coords
     }

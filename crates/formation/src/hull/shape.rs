@@ -51,6 +51,18 @@ impl Shape {
         Self { points, radius }
     }
 
+    /// The shape displaced by `by` (m).
+    ///
+    /// # Errors
+    /// A displacement that is not finite.
+    pub fn moved(&self, by: Vector2<f64>) -> Result<Self, HullError> {
+        let points: Vec<Vector2<f64>> = self.points.iter().map(|point| point + by).collect();
+        match points.iter().position(|point| !(point.x.is_finite() && point.y.is_finite())) {
+            Some(corner) => Err(HullError::NotFinite(corner)),
+            None => Ok(Self { points, radius: self.radius }),
+        }
+    }
+
     /// Corners counter-clockwise and radius.
     pub fn outline(&self) -> Outline<'_> {
         Outline { points: &self.points, radius: self.radius }

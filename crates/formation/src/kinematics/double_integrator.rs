@@ -16,6 +16,12 @@ impl PointState {
         Self { position, velocity: Vector2::zeros() }
     }
 
+    /// Carried on by its velocity for `duration` (s): what others expect of it.
+    #[must_use]
+    pub fn coasted(self, duration: f64) -> Self {
+        Self { position: self.position + duration * self.velocity, ..self }
+    }
+
     /// Exact solution after `duration` (s) of constant `acceleration`.
     #[must_use]
     pub fn advanced(self, acceleration: Vector2<f64>, duration: f64) -> Self {

@@ -36,6 +36,19 @@ pub struct Capability {
     pub acceleration: f64,
 }
 
+impl Capability {
+    /// The part of the acceleration `wanted` that a robot can follow for `step` (s) at `velocity`: not longer than the acceleration,
+    /// and none that makes it faster than the speed. A robot that is too fast already brakes as it can.
+    pub fn admit(&self, velocity: Vector2<f64>, wanted: Vector2<f64>, step: f64) -> Vector2<f64> {
+        let cut = wanted.cap_magnitude(self.acceleration);
+        let next = velocity + step * cut;
+        if next.norm() <= self.speed {
+            return cut;
+        }
+        ((next.cap_magnitude(self.speed) - velocity) / step).cap_magnitude(self.acceleration)
+    }
+}
+
 impl GoalTracking<Hyperbolic, ConstantDamping> {
     /// (5.1) for a bounded actuator (9.2): Phi = alpha (sqrt(x^2 + a^2) - a) with alpha half of the acceleration and k = alpha
     /// over the speed.
@@ -67,7 +80,7 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
 }
 
 /// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
-pub(super) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
     let distance = offset.norm();
     if distance == 0.0 { Vector2::zeros() } else { offset * (trench.slope(distance) / distance) }
 }

@@ -20,6 +20,7 @@ use crate::kinematics::{Polar, Twist};
 pub use dead_band::DeadBand;
 pub use direct::Direct;
 pub use family::Family;
+pub(crate) use goal_tracking::pull;
 pub use goal_tracking::{Capability, GoalTracking, Steered};
 pub use lyapunov::Lyapunov;
 pub use nearest::{Attracting, NearestAttraction};

@@ -1,6 +1,7 @@
 //! How the points of a moving segment move.
 use super::GoalMotion;
 use crate::Vector2;
+use nalgebra::{Isometry2, UnitComplex};
 
 /// Motion of a segment's frame, which carries the segment: all in frame `map`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +18,24 @@ impl RigidMotion {
     /// A segment that does not move.
     pub fn at_rest() -> Self {
         Self { origin: GoalMotion::at_rest(Vector2::zeros()), turn_rate: 0.0, turn_acceleration: 0.0 }
+    }
+
+    /// The frame's pose and motion after `time` (s) of constant accelerations.
+    pub fn carried(&self, pose: Isometry2<f64>, time: f64) -> (Isometry2<f64>, Self) {
+        if time == 0.0 {
+            return (pose, *self);
+        }
+        let origin = self.origin.after(time);
+        let turned = time * (self.turn_rate + 0.5 * time * self.turn_acceleration);
+        let rotation = if turned == 0.0 {
+            pose.rotation
+        } else {
+            let (sine, cosine) = libm::sincos(turned);
+            UnitComplex::from_cos_sin_unchecked(cosine, sine) * pose.rotation
+        };
+        let turn_rate = self.turn_rate + time * self.turn_acceleration;
+        let translation = pose.translation.vector + origin.position - self.origin.position;
+        (Isometry2::from_parts(translation.into(), rotation), Self { origin, turn_rate, ..*self })
     }
 
     /// Motion of the point of the frame that is at `point` now.

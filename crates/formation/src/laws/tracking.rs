@@ -39,6 +39,16 @@ impl GoalMotion {
     pub fn at_rest(position: Vector2<f64>) -> Self {
         Self { position, velocity: Vector2::zeros(), acceleration: Vector2::zeros() }
     }
+
+    /// The point after `time` (s) of constant acceleration.
+    #[must_use]
+    pub fn after(self, time: f64) -> Self {
+        Self {
+            position: self.position + time * (self.velocity + 0.5 * time * self.acceleration),
+            velocity: self.velocity + time * self.acceleration,
+            ..self
+        }
+    }
 }
 
 /// What the law says and what a monitor wants to know of it.

@@ -1,34 +1,31 @@
 //! Stepping a chain.
-use super::remedy::Remedy;
 use super::{ChainScenario, Encroaching, ScenarioError};
 use crate::Vector2;
+use crate::agent::{Action, Agent, Leader, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
-use crate::laws::{Attracting, Push, RigidMotion, Steered};
-use crate::seek::{Fragments, Seeker};
 use crate::trench::Trench;
-use nalgebra::Isometry2;
 
 /// A chain under way.
 #[derive(Debug, Clone)]
 pub struct ChainSimulation<T> {
     pub(super) scenario: ChainScenario<T>,
+    /// Real and apparent obstacles at the last tick, velocities of the apparent ones.
+    real: Vec<Obstacle>,
     pub(super) obstacles: Vec<ApparentObstacle>,
+    velocities: Vec<Vector2<f64>>,
     pub(super) robots: Vec<PointState>,
     /// Robots at the last tick, as others see them.
-    pub(super) seen: Vec<PointState>,
-    pub(super) seekers: Vec<Seeker>,
-    pub(super) remedies: Vec<Remedy>,
+    seen: Vec<PointState>,
+    pub(super) agents: Vec<Agent<T>>,
     /// Distances from the nearest points at the last step, m.
     pub(super) deviations: Vec<f64>,
-    /// Fragments of each robot, or one for all.
-    pub(super) fragments: Vec<Fragments>,
-    pub(super) steered: Vec<Steered>,
-    pub(super) frame: (Isometry2<f64>, RigidMotion),
+    seen_deviations: Vec<f64>,
+    pub(super) actions: Vec<Action>,
     pub(super) steps: u64,
 }
 
-impl<T: Trench> ChainSimulation<T> {
+impl<T: Trench + Clone> ChainSimulation<T> {
     /// Combines the obstacles and puts the robots at their start.
     ///
     /// # Errors
@@ -43,65 +40,95 @@ impl<T: Trench> ChainSimulation<T> {
             }
         }
         let count = scenario.robots.len();
-        let rest = Steered { acceleration: Vector2::zeros(), lyapunov: 0.0, lyapunov_rate: 0.0 };
         let mut simulation = Self {
+            real: scenario.obstacles.clone(),
+            velocities: scenario.velocities_of(&obstacles),
             obstacles,
             robots: scenario.robots.clone(),
             seen: scenario.robots.clone(),
-            seekers: vec![Seeker::default(); count],
-            remedies: vec![Remedy::default(); count],
+            agents: vec![Agent::new(scenario.agent()); count],
             deviations: vec![f64::INFINITY; count],
-            fragments: Vec::new(),
-            steered: vec![rest; count],
-            frame: scenario.carriage.at(0.0),
+            seen_deviations: vec![f64::INFINITY; count],
+            actions: Vec::with_capacity(count),
             steps: 0,
             scenario,
         };
-        simulation.find_fragments()?;
+        simulation.sense()?;
         Ok(simulation)
     }
+}
 
+impl<T: Trench> ChainSimulation<T> {
     /// Advances by one step.
     ///
     /// # Errors
     /// Robots whose position is no longer finite, where they encroach on the segment.
     pub fn step(&mut self) -> Result<(), ScenarioError> {
-        if !self.scenario.carriage.is_parked() {
-            self.frame = self.scenario.carriage.at(self.time());
-        }
-        if self.steps.is_multiple_of(u64::from(self.scenario.steps_per_tick)) {
+        let ticks = u64::from(self.scenario.steps_per_tick);
+        if self.steps.is_multiple_of(ticks) {
             self.seen.copy_from_slice(&self.robots);
-            let changes = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_))
-                || !self.scenario.carriage.is_parked();
-            if changes {
-                self.find_fragments()?;
+            self.seen_deviations.copy_from_slice(&self.deviations);
+            let moves = self.scenario.moves();
+            if moves {
+                let time = self.time();
+                self.real = self.scenario.obstacles_at(time)?;
+                self.obstacles = combine(&self.real, self.scenario.clearance)?;
+                self.velocities = self.scenario.velocities_of(&self.obstacles);
+            }
+            let encroach = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_));
+            if moves || encroach || !self.scenario.carriage.is_parked() {
+                self.sense()?;
             }
         }
+        let step = self.scenario.step;
+        let since = (self.steps % ticks) as f64 * step;
+        self.actions.clear();
         for index in 0..self.robots.len() {
-            let attracting = self.attract(index);
-            self.steered[index] = self.steer(index, attracting);
+            let action = self.with_surroundings(index, |agent, around, robot| agent.act(around, robot, since, step));
+            if action.deviation.is_finite() {
+                self.deviations[index] = action.deviation;
+            }
+            self.actions.push(action);
         }
-        for (robot, steered) in self.robots.iter_mut().zip(&self.steered) {
-            *robot = robot.advanced_semi_implicit(steered.acceleration, self.scenario.step);
+        for (robot, action) in self.robots.iter_mut().zip(&self.actions) {
+            *robot = robot.advanced_semi_implicit(action.acceleration, step);
         }
         self.steps += 1;
         Ok(())
     }
 
-    fn steer(&self, index: usize, attracting: Attracting) -> Steered {
-        let (scenario, robot) = (&self.scenario, self.robots[index]);
-        let ahead = self.seen[..index].iter().enumerate().map(|(other, state)| {
-            if other + 1 == index {
-                Push::of_leader(&scenario.zoning, robot.position, state.position)
-            } else {
-                Push::of_robot_ahead(&scenario.zoning, robot.position, state.position)
-            }
-        });
-        let obstacles = self.obstacles.iter().enumerate().map(|(other, obstacle)| {
-            let approach = self.remedies[index].approach((other, obstacle), &scenario.obstacles, robot.position);
-            Push::of_obstacle(&scenario.potential, approach)
-        });
-        let leader_velocity = index.checked_sub(1).map(|leader| self.seen[leader].velocity);
-        scenario.law.steer(robot, attracting, leader_velocity, ahead.chain(obstacles))
+    fn sense(&mut self) -> Result<(), ScenarioError> {
+        for index in 0..self.robots.len() {
+            self.with_surroundings(index, |agent, around, _| agent.sense(around))?;
+        }
+        Ok(())
+    }
+
+    /// Calls `work` with a robot's controller, its surroundings at the last tick, and its state now.
+    fn with_surroundings<R>(
+        &mut self,
+        index: usize,
+        work: impl FnOnce(&mut Agent<T>, &Surroundings<'_>, PointState) -> R,
+    ) -> R {
+        let scenario = &self.scenario;
+        let ticks = u64::from(scenario.steps_per_tick);
+        let time = (self.steps - self.steps % ticks) as f64 * scenario.step;
+        let (map_from_segment, motion) = scenario.carriage.at(time);
+        let goal = scenario.team_goal.filter(|_| index == 0);
+        let around = Surroundings {
+            time,
+            curve: &scenario.segment,
+            map_from_segment,
+            motion,
+            goal: goal.map(|goal| motion.at(map_from_segment.transform_point(&goal.into()).coords)),
+            leader: index
+                .checked_sub(1)
+                .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] }),
+            ahead: &self.seen[..index.saturating_sub(1)],
+            real: &self.real,
+            apparent: &self.obstacles,
+            velocities: &self.velocities,
+        };
+        work(&mut self.agents[index], &around, self.robots[index])
     }
 }

@@ -1,11 +1,12 @@
 //! What can be seen of a simulated chain.
 use super::ChainSimulation;
+use crate::agent::{Action, Agent};
 use crate::curve::Interval;
 use crate::hull::ApparentObstacle;
 use crate::kinematics::PointState;
-use crate::laws::Steered;
+use crate::trench::Trench;
 
-impl<T> ChainSimulation<T> {
+impl<T: Trench> ChainSimulation<T> {
     /// Seconds simulated.
     pub fn time(&self) -> f64 {
         self.steps as f64 * self.scenario.step
@@ -16,9 +17,9 @@ impl<T> ChainSimulation<T> {
         &self.robots
     }
 
-    /// What the law said at the last step, by rank.
-    pub fn steered(&self) -> &[Steered] {
-        &self.steered
+    /// What each robot did at the last step, by rank; none before the first.
+    pub fn actions(&self) -> &[Action] {
+        &self.actions
     }
 
     /// Distances from the points that drew the robots at the last step, m; infinite before any did.
@@ -33,7 +34,7 @@ impl<T> ChainSimulation<T> {
 
     /// The qualified fragments of the robot of a rank (1 is the chain leader).
     pub fn fragments(&self, rank: usize) -> &[Interval] {
-        self.fragments[rank.saturating_sub(1).min(self.fragments.len() - 1)].intervals()
+        self.agents.get(rank.saturating_sub(1)).map_or(&[], Agent::fragments)
     }
 
     /// Least distance between any two robots now, m.

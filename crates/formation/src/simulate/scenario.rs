@@ -1,11 +1,11 @@
 //! What is simulated.
 use super::Carriage;
 use crate::Vector2;
-use crate::avoidance::WatchSettings;
+use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
 use crate::curve::Curve;
-use crate::hull::{HullError, Obstacle};
+use crate::hull::{ApparentObstacle, HullError, Obstacle};
 use crate::kinematics::PointState;
-use crate::laws::NearestAttraction;
+use crate::laws::{Capability, NearestAttraction};
 use crate::seek::{SeekError, SeekSettings};
 use crate::zoning::{ObstaclePotential, Zoning};
 use thiserror::Error;
@@ -25,7 +25,7 @@ pub struct ChainScenario<T> {
     pub law: NearestAttraction<T>,
     /// Psi to the leader, Psi_hat to all robots ahead.
     pub zoning: Zoning,
-    /// Static obstacles, combined below `clearance` before the start.
+    /// Obstacles at time 0, combined below `clearance`; anew at every tick if they move.
     pub obstacles: Vec<Obstacle>,
     /// rho_clearance of (7.8), m.
     pub clearance: f64,
@@ -37,30 +37,25 @@ pub struct ChainScenario<T> {
     pub encroaching: Encroaching,
     /// How robots get out of local minima; without it they stay.
     pub remedies: Option<Remedies>,
+    /// Beyond the thesis.
+    pub options: Options,
     /// Step of integration, s.
     pub step: f64,
     /// Steps between two samples of what robots know of one another.
     pub steps_per_tick: u32,
 }
 
-/// What encroaches on the segment.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Encroaching {
-    /// Nothing: nearest points on the whole segment.
-    Nothing,
-    /// Apparent obstacles, up to the cut of their potential.
-    Obstacles,
-    /// Robots ahead too (step (1) of 7.5.2): as obstacles of this radius (m), sought anew at every tick.
-    ObstaclesAndRobots(f64),
-}
-
-/// Watching for local minima and raising guards.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Remedies {
-    /// When a robot counts as caught.
-    pub watch: WatchSettings,
-    /// How fast a guard rises to its place, and how fast robots are led out of hulls, m/s.
-    pub rising: f64,
+/// What a scenario may have besides.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Options {
+    /// Which of the laws; (7.13) without it.
+    pub method: Option<Method>,
+    /// Bounds of speed and acceleration relative to the segment (9.2).
+    pub limits: Option<Capability>,
+    /// Whether pushes straight against the attraction are turned aside.
+    pub sidesteps: bool,
+    /// Velocities of the obstacles in order, m/s; those missing rest.
+    pub obstacle_velocities: Vec<Vector2<f64>>,
 }
 
 /// A scenario that cannot be run.
@@ -92,7 +87,50 @@ pub enum ScenarioError {
     Seek(#[from] SeekError),
 }
 
+impl<T: Clone> ChainScenario<T> {
+    /// The controller that every robot gets.
+    pub fn agent(&self) -> AgentSettings<T> {
+        AgentSettings {
+            law: self.law.clone(),
+            method: self.options.method.unwrap_or(Method::Nearest),
+            zoning: self.zoning,
+            potential: self.potential,
+            clearance: self.clearance,
+            seeking: self.seeking,
+            encroaching: self.encroaching,
+            remedies: self.remedies,
+            limits: self.options.limits,
+            sidesteps: self.options.sidesteps,
+        }
+    }
+}
+
 impl<T> ChainScenario<T> {
+    /// Whether any obstacle moves.
+    pub(super) fn moves(&self) -> bool {
+        self.options.obstacle_velocities.iter().any(|velocity| *velocity != Vector2::zeros())
+    }
+
+    /// The obstacles at `time` (s).
+    pub(super) fn obstacles_at(&self, time: f64) -> Result<Vec<Obstacle>, ScenarioError> {
+        let velocities = self.options.obstacle_velocities.iter().copied().chain(core::iter::repeat(Vector2::zeros()));
+        let moved = |(obstacle, velocity): (&Obstacle, Vector2<f64>)| {
+            Ok(Obstacle { id: obstacle.id, shape: obstacle.shape.moved(time * velocity)? })
+        };
+        self.obstacles.iter().zip(velocities).map(moved).collect()
+    }
+
+    /// Velocities of apparent obstacles: each that of its fastest member, m/s.
+    pub(super) fn velocities_of(&self, apparent: &[ApparentObstacle]) -> Vec<Vector2<f64>> {
+        let velocities = &self.options.obstacle_velocities;
+        let of = |obstacle: &ApparentObstacle| {
+            let members = self.obstacles.iter().zip(velocities).filter(|(real, _)| obstacle.members.contains(&real.id));
+            let faster = |a: Vector2<f64>, b: &Vector2<f64>| if b.norm_squared() > a.norm_squared() { *b } else { a };
+            members.map(|(_, velocity)| velocity).fold(Vector2::zeros(), faster)
+        };
+        apparent.iter().map(of).collect()
+    }
+
     /// What can be said before obstacles are combined.
     pub(super) fn check(&self) -> Result<(), ScenarioError> {
         let finite = |vector: Vector2<f64>| vector.x.is_finite() && vector.y.is_finite();
@@ -108,6 +146,9 @@ impl<T> ChainScenario<T> {
         }
         if !self.team_goal.is_none_or(finite) {
             return Err(ScenarioError::NotFinite("the team goal"));
+        }
+        if !self.options.obstacle_velocities.iter().copied().all(finite) {
+            return Err(ScenarioError::NotFinite("the velocity of an obstacle"));
         }
         self.seeking.check()?;
         for (index, robot) in self.robots.iter().enumerate() {

@@ -78,3 +78,25 @@ pub trait Trench {
 fn convex_bounds(trench: &impl Trench, low: f64, high: f64) -> Option<Interval> {
     Some(Interval { low: trench.slopes(low).left, high: trench.slopes(high).right })
 }
+
+impl<T: Trench + ?Sized> Trench for &T {
+    fn value(&self, x: f64) -> f64 {
+        (**self).value(x)
+    }
+
+    fn slopes(&self, x: f64) -> Slopes {
+        (**self).slopes(x)
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        (**self).kinks()
+    }
+
+    fn gradient(&self, x: f64) -> Interval {
+        (**self).gradient(x)
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        (**self).slope(x)
+    }
+}

@@ -5,7 +5,7 @@ use trench_formation::hull::{Obstacle, Shape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::NearestAttraction;
 use trench_formation::seek::{LeaderRule, SeekSettings};
-use trench_formation::simulate::{Carriage, ChainScenario, Encroaching};
+use trench_formation::simulate::{Carriage, ChainScenario, Encroaching, Options};
 use trench_formation::trench::Hyperbolic;
 use trench_formation::zoning::{Edge, ObstaclePotential, Radii, Sharpness, Zoning};
 
@@ -50,6 +50,7 @@ pub(crate) fn chain_of_7_10(damping: f64) -> ChainScenario<Hyperbolic> {
         },
         encroaching: Encroaching::Nothing,
         remedies: None,
+        options: Options::default(),
         step: 0.001,
         steps_per_tick: 1,
     }

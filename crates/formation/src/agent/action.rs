@@ -1,0 +1,72 @@
+//! What a controller says, and what people want to see of it.
+use crate::Vector2;
+use crate::kinematics::PointState;
+use crate::laws::Steered;
+use crate::zoning::Zone;
+
+/// What a robot does now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Action {
+    /// What the law says, before limits.
+    pub steered: Steered,
+    /// What is applied, m/s^2: the law's acceleration within the limits.
+    pub acceleration: Vector2<f64>,
+    /// Whether limits cut it.
+    pub cut: bool,
+    /// Power that the cut adds to the Lyapunov function besides the law's own rate, m^2/s^3.
+    pub cut_power: f64,
+    /// The point that draws the robot, m; none while its attraction is suspended.
+    pub attraction: Option<Vector2<f64>>,
+    /// Distance from the nearest or goal point, whether it draws or not, m; infinite where there is none.
+    pub deviation: f64,
+    /// The terms of the law.
+    pub forces: Forces,
+    /// Where the leader is; none for chain leaders.
+    pub zone: Option<Zone>,
+    /// What is done about a local minimum.
+    pub remedy: RemedyState,
+}
+
+/// The terms of the law, m/s^2. They add up to its acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Forces {
+    /// Phi' d_hat.
+    pub trench: Vector2<f64>,
+    /// Psi' of the leader.
+    pub zoning: Vector2<f64>,
+    /// Psi_hat' of the other robots.
+    pub robots: Vector2<f64>,
+    /// Psi_hat^ob' of the obstacles.
+    pub obstacles: Vector2<f64>,
+    /// Damping, feedforward and delta of (6.1).
+    pub damping: Vector2<f64>,
+}
+
+/// What a remedy does (7.6, 7.7, Remark 6.4.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RemedyState {
+    /// Nothing.
+    #[default]
+    None,
+    /// A guard stands before the apparent obstacle of this id.
+    Guarded(u32),
+    /// The attraction is off for a while.
+    Suspended,
+    /// On the way out of the hull of this id.
+    Escaping(u32),
+}
+
+/// What a robot does until the next tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Driven {
+    /// The reference at the next tick.
+    pub end: PointState,
+    /// Mean velocity until then, m/s.
+    pub mean_velocity: Vector2<f64>,
+    /// Mean acceleration, m/s^2.
+    pub mean_acceleration: Vector2<f64>,
+    /// The action at the beginning.
+    pub first: Action,
+    /// Whether limits ever cut.
+    pub cut: bool,
+}

@@ -1,0 +1,90 @@
+//! What draws a robot: its goal or nearest point, unless a remedy asks for something else.
+use super::remedy::{Asked, Drawn, Sight};
+use super::surroundings::Moment;
+use super::{Agent, Encroaching, Surroundings};
+use crate::Vector2;
+use crate::curve::Foot;
+use crate::hull::{ApparentObstacle, HullError, Outline};
+use crate::laws::{Attracting, GoalMotion};
+use crate::seek::{Fragments, LeaderView, Sought, apparent_obstacles};
+use crate::trench::Trench;
+
+/// The point that draws a robot.
+pub(super) struct Attracted {
+    pub(super) attracting: Attracting,
+    /// The point of the segment, where that is what draws.
+    pub(super) foot: Option<Foot>,
+    /// Distance from the nearest or goal point, m.
+    pub(super) deviation: f64,
+}
+
+impl<T: Trench> Agent<T> {
+    pub(super) fn attract(
+        &mut self,
+        around: &Surroundings<'_>,
+        moment: &Moment<'_>,
+        robot: Vector2<f64>,
+        step: f64,
+    ) -> Attracted {
+        let goal = around.goal_after(moment.since);
+        let (drawn, foot) = match goal {
+            Some(goal) => (Drawn::Goal(goal.position), goal),
+            None => match self.seek(around, moment, robot) {
+                Sought::Point(foot) => (Drawn::To(foot), moment.motion.at(foot.point)),
+                Sought::Tie | Sought::NoFragment => {
+                    let attracting = Attracting { foot: moment.motion.at(robot), draws: false };
+                    return Attracted { attracting, foot: None, deviation: f64::INFINITY };
+                }
+            },
+        };
+        let deviation = (foot.position - robot).norm();
+        let asked = match &self.settings.remedies {
+            Some(remedies) => {
+                let sight = Sight { remedies, potential: &self.settings.potential, around, moment, step };
+                self.remedy.update(&sight, robot, drawn)
+            }
+            None => Asked::Attraction,
+        };
+        let attracting = match asked {
+            Asked::Attraction => Attracting { foot, draws: true },
+            Asked::Suspension => Attracting { foot: moment.motion.at(robot), draws: false },
+            Asked::Point(point) => Attracting { foot: GoalMotion::at_rest(point), draws: true },
+        };
+        let on_segment = match (asked, drawn) {
+            (Asked::Attraction, Drawn::To(foot)) => Some(foot),
+            _ => None,
+        };
+        Attracted { attracting, foot: on_segment, deviation }
+    }
+
+    fn seek(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: Vector2<f64>) -> Sought {
+        let leader = around.leader.map(|leader| {
+            let state = leader.state.coasted(moment.since);
+            let speed = (state.velocity - moment.motion.at(state.position).velocity).norm();
+            let view = LeaderView { position: state.position, distance: leader.deviation, speed };
+            (view, self.settings.zoning.radii())
+        });
+        let whole = (0.0, around.curve.length());
+        self.seeker.seek(&self.settings.seeking, &moment.segment, (whole, &self.fragments), robot, leader)
+    }
+
+    /// Steps (1) to (3) of 7.5.2.
+    pub(super) fn find_fragments(&self, around: &Surroundings<'_>) -> Result<Fragments, HullError> {
+        let whole = (0.0, around.curve.length());
+        let segment = around.moment(0.0).segment;
+        let settings = &self.settings;
+        let find = |obstacles: &[ApparentObstacle]| {
+            let outlines: Vec<Outline<'_>> = obstacles.iter().map(|obstacle| obstacle.shape.outline()).collect();
+            Fragments::find(&segment, whole, &outlines, settings.potential.cut(), settings.seeking.room)
+        };
+        Ok(match settings.encroaching {
+            Encroaching::Nothing => Fragments::whole(whole),
+            Encroaching::Obstacles => find(around.apparent),
+            Encroaching::ObstaclesAndRobots(radius) => {
+                let leader = around.leader.map(|leader| leader.state.position);
+                let robots: Vec<Vector2<f64>> = around.ahead.iter().map(|robot| robot.position).chain(leader).collect();
+                find(&apparent_obstacles(around.real, &robots, radius, settings.clearance)?)
+            }
+        })
+    }
+}

@@ -1,0 +1,16 @@
+//! One robot's controller under the dynamic laws of chapters 5 to 7: what a live process and a simulation run alike.
+//!
+//! An [`Agent`] remembers what one robot has to: the nearest point it keeps, its qualified fragments, its remedy. Once a tick
+//! it senses its [`Surroundings`]; between ticks it steers in small steps, with everything around it carried on by its
+//! velocity. All is in frame `map`. Steering allocates nothing but where a remedy begins.
+mod action;
+mod attract;
+mod controller;
+mod remedy;
+mod settings;
+mod surroundings;
+
+pub use action::{Action, Driven, Forces, RemedyState};
+pub use controller::Agent;
+pub use settings::{AgentSettings, Encroaching, Method, Remedies};
+pub use surroundings::{Leader, Surroundings};

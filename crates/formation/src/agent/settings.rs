@@ -1,0 +1,68 @@
+//! What a person may choose about a robot's controller.
+use crate::Vector2;
+use crate::avoidance::WatchSettings;
+use crate::laws::{Capability, NearestAttraction};
+use crate::seek::SeekSettings;
+use crate::trench::HyperbolicDamping;
+use crate::zoning::{ObstaclePotential, Zoning};
+
+/// A robot's law and everything that belongs to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AgentSettings<T> {
+    /// Trench and damping; (7.4) and (7.13) themselves.
+    pub law: NearestAttraction<T>,
+    /// Which of the laws.
+    pub method: Method,
+    /// Psi to the leader, Psi_hat to all robots ahead.
+    pub zoning: Zoning,
+    /// Psi_hat^ob.
+    pub potential: ObstaclePotential,
+    /// rho_clearance of (7.8), m: only for robots that encroach on the segment.
+    pub clearance: f64,
+    /// How the nearest point is sought.
+    pub seeking: SeekSettings,
+    /// What encroaches on the segment.
+    pub encroaching: Encroaching,
+    /// The way out of local minima; without it the robot stays.
+    pub remedies: Option<Remedies>,
+    /// Bounds of speed and acceleration relative to the segment (9.2), applied after the law.
+    pub limits: Option<Capability>,
+    /// Whether a push straight against the attraction is turned a little to the robot's right: exactly head-on it would stay.
+    pub sidesteps: bool,
+}
+
+/// Which law steers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// (5.1) and (5.3) with the constant damping of the law, (5.2) with a damping of its own: to the goal point; nothing repels.
+    Goal(Option<HyperbolicDamping>),
+    /// (6.1): to the point of attraction in a direction of the segment's frame, or across the segment. delta if `compensates`.
+    Directed {
+        /// Unit vector, frame of the segment; across the segment without it.
+        direction: Option<Vector2<f64>>,
+        /// See [`ZonedAttraction`](crate::laws::ZonedAttraction).
+        compensates: bool,
+    },
+    /// (7.3), (7.4), (7.13): to the nearest point.
+    Nearest,
+}
+
+/// What encroaches on the segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Encroaching {
+    /// Nothing: nearest points on the whole segment.
+    Nothing,
+    /// Apparent obstacles, up to the cut of their potential.
+    Obstacles,
+    /// Robots ahead too (step (1) of 7.5.2): as obstacles of this radius (m), sought anew at every tick.
+    ObstaclesAndRobots(f64),
+}
+
+/// Watching for local minima and raising guards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Remedies {
+    /// When a robot counts as caught.
+    pub watch: WatchSettings,
+    /// How fast a guard rises to its place, and how fast robots are led out of hulls, m/s.
+    pub rising: f64,
+}

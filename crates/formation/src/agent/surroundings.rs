@@ -1,0 +1,73 @@
+//! What a robot knows at a tick, and how it goes on until the next.
+use crate::Vector2;
+use crate::curve::{Curve, Placed};
+use crate::hull::{ApparentObstacle, Obstacle};
+use crate::kinematics::PointState;
+use crate::laws::{GoalMotion, RigidMotion};
+use nalgebra::Isometry2;
+
+/// Everything around a robot at a tick, frame `map`. Borrowed: nothing is copied.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings<'a> {
+    /// Time of the tick, s, from any fixed beginning.
+    pub time: f64,
+    /// The segment in its own frame.
+    pub curve: &'a Curve,
+    /// Pose of that frame.
+    pub map_from_segment: Isometry2<f64>,
+    /// Its motion.
+    pub motion: RigidMotion,
+    /// The robot's own goal point: the team goal of a chain leader, or the goal of [`Method::Goal`](super::Method::Goal).
+    /// Without it the robot seeks its nearest point.
+    pub goal: Option<GoalMotion>,
+    /// The robot that it follows.
+    pub leader: Option<Leader>,
+    /// Robots to keep from besides the leader: those ahead of it in the chain, by rank, and those of other teams in range.
+    pub ahead: &'a [PointState],
+    /// Real obstacles.
+    pub real: &'a [Obstacle],
+    /// What they are combined to.
+    pub apparent: &'a [ApparentObstacle],
+    /// Velocities of the apparent obstacles in order, m/s; those missing rest.
+    pub velocities: &'a [Vector2<f64>],
+}
+
+/// What a robot knows of its leader.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leader {
+    /// Where it is and how fast.
+    pub state: PointState,
+    /// Its distance from what draws it, m.
+    pub deviation: f64,
+}
+
+/// The segment some time after a tick.
+pub(super) struct Moment<'a> {
+    /// Time since the tick, s.
+    pub(super) since: f64,
+    pub(super) segment: Placed<'a>,
+    pub(super) motion: RigidMotion,
+}
+
+impl<'a> Surroundings<'a> {
+    /// The segment `since` seconds after the tick.
+    pub(super) fn moment(&self, since: f64) -> Moment<'a> {
+        let (map_from_segment, motion) = self.motion.carried(self.map_from_segment, since);
+        Moment { since, segment: Placed::new(self.curve, map_from_segment), motion }
+    }
+
+    /// The goal point then.
+    pub(super) fn goal_after(&self, since: f64) -> Option<GoalMotion> {
+        self.goal.map(|goal| goal.after(since))
+    }
+
+    /// Displacement of an apparent obstacle since the tick, m.
+    pub(super) fn displacement(&self, index: usize, since: f64) -> Vector2<f64> {
+        since * self.velocity(index)
+    }
+
+    /// Velocity of an apparent obstacle, m/s.
+    pub(super) fn velocity(&self, index: usize) -> Vector2<f64> {
+        self.velocities.get(index).copied().unwrap_or_else(Vector2::zeros)
+    }
+}
