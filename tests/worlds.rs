@@ -1,4 +1,4 @@
-//! Worlds larger than the lab's bed, in lock-step: eight robots cross a field of 4 m x 2.8 m.
+//! Worlds in lock-step: eight robots on a field of 4 m x 2.8 m, obstacles that only lasers see, obstacles that move.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 #[expect(dead_code, reason = "the experiments use the rest")]
@@ -45,4 +45,40 @@ fn eight_robots_cross_a_large_field_below_one_camera() {
 #[test]
 fn robots_are_found_in_frames_of_the_large_camera() {
     check_nobody_touched_or_got_lost(&cross(6.0, &[("camera", "overhead_large"), ("render", "true")]));
+}
+
+/// Four robots of the square experiment among obstacles.
+fn square(obstacles: &str, seconds: f64, bed: &[(&str, &str)]) -> Finished {
+    let folder = tempfile::tempdir().unwrap();
+    let (obstacle_path, launch_path) = (folder.path().join("field.yaml"), folder.path().join("run.launch.yaml"));
+    std::fs::write(&obstacle_path, obstacles).unwrap();
+    let obstacles = obstacle_path.display().to_string();
+    let bed = [bed, &[("obstacles", &obstacles), ("render", "false")]].concat();
+    let formation = support::root().join("config/formations/square.yaml").display().to_string();
+    let poses = "[0.15, 0.25, 0.50, 0.95, 0.20, 0.40, 0.20, 1.60, -0.30, 0.90, 1.55, -0.80]";
+    std::fs::write(&launch_path, launch_file(4, seconds, &formation, poses, "bed", &bed)).unwrap();
+    drive_file(&launch_path, &[])
+}
+
+#[test]
+fn obstacles_that_only_lasers_see_are_gone_round() {
+    // One disc on the way of the near queue's points, one beside the far queue's segment.
+    let discs = "obstacles:\n- {polygon: [[0.85, 0.47]], radius: 0.07}\n- {polygon: [[1.5, 1.45]], radius: 0.05}\n";
+    let lasers = ("lasers", "[robot1, robot2, robot3, robot4]");
+    let finished = square(discs, 60.0, &[lasers, ("publish_obstacles", "false")]);
+    let summary = summary(&finished.run, &SummaryOptions::default());
+    assert_eq!(summary.contacts, [], "{summary}");
+    assert_eq!(finished.ending, Ending::Exit { node: "/operator".to_owned(), code: 0 }, "{summary}");
+    // Blind robots do run into the one on their way.
+    let blind = square(discs, 40.0, &[("publish_obstacles", "false")]);
+    assert!(blind.run.contacts.iter().any(|contact| contact.thing == "obstacle 1"), "{:?}", blind.run.contacts);
+}
+
+#[test]
+fn a_wall_that_runs_over_the_field_is_told_of() {
+    // A wall as high as the field comes from the right, faster than robots are.
+    let wall = "obstacles:\n- {polygon: [[2.3, 0.0], [2.4, 0.0], [2.4, 1.83], [2.3, 1.83]], velocity: [-0.5, 0.0]}\n";
+    let finished = square(wall, 4.0, &[]);
+    let text = summary(&finished.run, &SummaryOptions::default()).to_string();
+    assert!(text.contains("touched obstacle 1 at ("), "{text}");
 }

@@ -88,7 +88,8 @@ pub struct Bed {
     up: BTreeMap<Flight, Flying>,
     flights: u64,
     shutter: Shutter,
-    laser: Option<Laser>,
+    lasers: Vec<usize>,
+    laser: Laser,
     laser_noise: Random,
     start: u64,
     exposed: u64,
@@ -115,7 +116,7 @@ impl Bed {
     /// Everything at rest at `setup.start`. The first frame is exposed one period later.
     #[must_use]
     pub fn new(setup: BedSetup) -> Self {
-        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, laser, baud, key } = setup;
+        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, lasers, laser, baud, key } = setup;
         let poses = robots.iter().map(|(_, pose)| *pose).collect();
         let slot = |id: u8| start + u64::from(id) * (ROUND / MAX_ROBOTS as u64);
         Self {
@@ -129,6 +130,7 @@ impl Bed {
             up: BTreeMap::new(),
             flights: 0,
             shutter,
+            lasers,
             laser,
             laser_noise: Random::new(seed, 3),
             start,
@@ -211,7 +213,8 @@ impl Bed {
         let reports = self.reports.iter().enumerate().map(|(robot, at)| (*at, Due::Report(robot)));
         let line = |line: &SerialLine, due| line.next_arrival().map(|at| (at, due));
         let flight = |flights: &BTreeMap<Flight, Flying>, due| flights.keys().next().map(|(at, _)| (*at, due));
-        let scan = self.laser.map(|laser| (self.start + (self.scanned + 1) * laser.period, Due::Scanned));
+        let next_scan = self.start + (self.scanned + 1) * self.laser.period;
+        let scan = (!self.lasers.is_empty()).then_some((next_scan, Due::Scanned));
         [
             Some((self.exposure_middle() + self.exposure_end(), Due::Exposed)),
             scan,
@@ -276,9 +279,8 @@ impl Bed {
 
     fn scan(&mut self, at: u64) {
         self.scanned += 1;
-        let Some(laser) = self.laser else { return };
-        for robot in 0..self.firmware.len() {
-            let ranges = self.world.scan(robot, &laser, &mut self.laser_noise);
+        for &robot in &self.lasers {
+            let ranges = self.world.scan(robot, &self.laser, &mut self.laser_noise);
             self.outputs.push_back(Output::Scan(Scan { at, robot, ranges }));
         }
     }

@@ -34,8 +34,10 @@ pub struct BedSetup {
     pub medium: MediumSetup,
     /// The camera.
     pub shutter: Shutter,
-    /// On every robot, if they have one. Scans are exact at whole milliseconds after the start.
-    pub laser: Option<Laser>,
+    /// Indices of the robots with lasers.
+    pub lasers: Vec<usize>,
+    /// Their lasers. Scans are exact at whole milliseconds after the start.
+    pub laser: Laser,
     /// Of the line between host and base station, bit/s.
     pub baud: u32,
     /// The robots' key, if they have one.

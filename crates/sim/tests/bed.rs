@@ -6,7 +6,9 @@ use trench_optics::Pose2;
 use trench_radio::{
     AckStatus, Commands, Fault, LinkFrame, Packet, Payload, RobotSet, StreamDecoder, Telemetry, WheelTimer, Wheels,
 };
-use trench_sim::{Bed, BedSetup, Body, Field, MediumSetup, Motor, Output, Shutter, Thing};
+use trench_sim::{
+    Bed, BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Output, Scan, Shutter, Thing, camera,
+};
 
 const MS: u64 = 1_000_000;
 const START: u64 = 5_000 * MS;
@@ -21,7 +23,15 @@ fn setup(robots: &[Pose2]) -> BedSetup {
         obstacles: vec![],
         medium: MediumSetup::HONEST,
         shutter: Shutter { period: 33_333_333, exposure: 10 * MS, delay: 35 * MS },
-        laser: None,
+        lasers: vec![],
+        laser: Laser {
+            period: 100 * MS,
+            range_min: 0.1,
+            range_max: 3.5,
+            field_of_view: std::f64::consts::TAU,
+            rays: 36,
+            noise: 0.01,
+        },
         baud: 115_200,
         key: None,
     }
@@ -195,4 +205,29 @@ proptest! {
         let (bed, _) = run(setup(&[pose(0.4, 0.4, 0.0)]), &[(1, garbage)], 500, &[]);
         prop_assert_eq!(bed.world().poses(), &[pose(0.4, 0.4, 0.0)]);
     }
+}
+
+#[test]
+fn obstacles_that_move_push_robots_and_lasers_see_them_come() {
+    let mut setup = setup(&[pose(1.0, 1.0, 0.0), pose(2.0, 1.0, 0.0)]);
+    let wall = camera::Obstacle { corners: vec![[0.5, 0.8], [0.6, 0.8], [0.6, 1.2], [0.5, 1.2]], radius: 0.0 };
+    setup.obstacles = vec![Obstacle::new(9, wall, [0.2, 0.0])];
+    setup.lasers = vec![1];
+    setup.laser.noise = 0.0;
+    let (bed, outputs) = run(setup, &[], 3000, &[]);
+    // From 0.6 m on by 0.6 m: the robot at 1 m is pushed on to 1.28 m, and turned by nothing.
+    let pushed = bed.world().poses()[0];
+    assert!((pushed.x - 1.28).abs() < 1e-3 && pushed.y == 1.0 && pushed.theta == 0.0, "{pushed:?}");
+    let contacts: Vec<_> = outputs.iter().filter(|output| matches!(output, Output::Contact(_))).collect();
+    assert!(
+        matches!(contacts[..], [Output::Contact(contact)] if contact.thing == Thing::Obstacle(0)
+        && contact.robot == 0 && contact.at.abs_diff(START + 1600 * MS) <= 2 * MS),
+        "{contacts:?}"
+    );
+    let scans: Vec<&Scan> =
+        outputs.iter().filter_map(|output| if let Output::Scan(scan) = output { Some(scan) } else { None }).collect();
+    assert_eq!(scans.iter().map(|scan| (scan.at - START) / MS).collect::<Vec<_>>()[..3], [100, 200, 300]);
+    assert!(scans.len() == 30 && scans.iter().all(|scan| scan.robot == 1 && scan.ranges.len() == 36));
+    // The first ray looks back, at the first robot: 0.92 m away, in the end 0.64 m.
+    assert!((scans[0].ranges[0] - 0.92).abs() < 1e-3 && (scans[29].ranges[0] - 0.64).abs() < 1e-3);
 }

@@ -1,19 +1,31 @@
 //! The node core.
 
-use crate::markers::outlines;
-use crate::sources::Sources;
-use trench_config::{ConfigError, ParameterDescriptor, Parameters};
+use crate::markers::{PICTURES, Picture};
+use crate::report::Report;
+use crate::scans::{Clusters, Memory, check, locate};
+use crate::settings::{Settings, descriptors};
+use crate::sources::{Known, Sources};
+use crate::team::{Team, Whereabouts};
+use std::collections::VecDeque;
+use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
+    Advertise, Condition, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, RosTime,
     Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
+use trench_formation::Vector2;
+use trench_formation::hull::{ApparentObstacle, Obstacle, combine};
 use trench_msgs::Message;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::{ApparentObstacleArray, ObstacleArray};
+use trench_msgs::msg::{self, ApparentObstacleArray, ObstacleArray, Point2, TeamState};
+use trench_msgs::sensor_msgs::LaserScan;
 use trench_msgs::std_msgs::Header;
 use trench_msgs::visualization_msgs::MarkerArray;
+use trench_optics::Pose2;
 
+/// Ports of subscriptions; the team and the robots' scans are there only if robots are named.
 const OBSTACLES: usize = 0;
+const TEAM: usize = 1;
+const SCANS: usize = 2;
 
 const APPARENT_OBSTACLES: usize = 0;
 const MARKERS: usize = 1;
@@ -21,27 +33,30 @@ const DIAGNOSTICS: usize = 2;
 
 /// Room for some hundred hulls in shared memory.
 const HULLS: Local = Local::SharedMemory { max_len: 65_536 };
+/// Scans that wait for the robots' poses.
+const MOST_WAITING: usize = 64;
+/// How long they wait, s.
+const PATIENCE: f64 = 0.3;
+/// A scan so far ahead of time, s, comes from a wrong clock.
+const FUTURE: f64 = 0.5;
 
 /// Combines what all sources tell of.
 pub struct ObstacleMapper {
     interface: Interface,
     settings: Settings,
     sources: Sources,
+    team: Team,
+    /// Scans that are newer than the last team state, with the robot and when they came.
+    waiting: VecDeque<(usize, LaserScan, Steady)>,
+    memory: Memory,
+    clusters: Clusters,
     health: Health,
+    of_obstacles: Report,
+    of_scans: Report,
+    scans_taken: u64,
     wakeup: Option<Steady>,
-    refused: u64,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Settings {
-    clearance: f64,
-    period: f64,
-}
-
-impl Settings {
-    fn read(parameters: &Parameters) -> Result<Self, ConfigError> {
-        Ok(Self { clearance: parameters.f64("clearance")?, period: 1.0 / parameters.f64("rate")? })
-    }
+    last_picture: Option<Steady>,
+    points: Vec<Vector2<f64>>,
 }
 
 /// The node as processes and the simulator make it.
@@ -50,62 +65,183 @@ pub fn description() -> NodeDescription {
     NodeDescription {
         name: "obstacle_mapper",
         about: "Turns obstacles into apparent obstacles: convex hulls, combined where no robot passes between them",
-        parameters: || {
-            vec![
-                ParameterDescriptor::double("clearance", 0.2, "m, hulls nearer to each other than this are combined")
-                    .range(0.0, 100.0),
-                ParameterDescriptor::double("rate", 20.0, "1/s, at which /apparent_obstacles is sent")
-                    .range(10.0, 100.0),
-            ]
-        },
-        build,
+        parameters: descriptors,
+        build: |context, parameters, files| Ok(Box::new(ObstacleMapper::new(context, parameters, files)?)),
     }
 }
 
-fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
-    let interface = Interface {
-        subscriptions: vec![Subscribe::to::<ObstacleArray>("/obstacles", Qos::RELIABLE)],
-        publications: vec![
-            Advertise::of::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE, HULLS),
-            Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
-            Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
-        ],
-        ..Interface::default()
-    };
-    Ok(Box::new(ObstacleMapper {
-        interface,
-        settings: Settings::read(parameters)?,
-        sources: Sources::default(),
-        health: Health::new(resolve_name("~", &context.namespace, &context.name)),
-        wakeup: None,
-        refused: 0,
-    }))
-}
-
 impl ObstacleMapper {
-    fn publish(&mut self, at: Times, changed: bool, sink: &mut dyn Sink) {
+    /// A mapper that knows of nothing yet.
+    ///
+    /// # Errors
+    /// When a parameter is not admissible.
+    pub fn new(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Self, StartError> {
+        let settings = Settings::read(parameters)?;
+        let mut subscriptions = vec![Subscribe::to::<ObstacleArray>("/obstacles", Qos::RELIABLE)];
+        if !settings.robots.is_empty() {
+            subscriptions.push(Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE));
+        }
+        subscriptions.extend(
+            settings.robots.iter().map(|robot| Subscribe::to::<LaserScan>(format!("/{robot}/scan"), Qos::SENSOR)),
+        );
+        let interface = Interface {
+            subscriptions,
+            publications: vec![
+                Advertise::of::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE, HULLS),
+                Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
+                Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
+            ],
+            ..Interface::default()
+        };
+        Ok(Self {
+            interface,
+            settings,
+            sources: Sources::default(),
+            team: Team::default(),
+            waiting: VecDeque::new(),
+            memory: Memory::default(),
+            clusters: Clusters::default(),
+            health: Health::new(resolve_name("~", &context.namespace, &context.name)),
+            of_obstacles: Report::new("obstacles"),
+            of_scans: Report::new("scans"),
+            scans_taken: 0,
+            wakeup: None,
+            last_picture: None,
+            points: Vec::new(),
+        })
+    }
+
+    /// A cycle: all that is known now, combined.
+    fn publish(&mut self, at: Times, sink: &mut dyn Sink) {
         self.wakeup = Some(at.steady.plus_seconds(self.settings.period));
-        let obstacles = match self.sources.combined(self.settings.clearance) {
-            Ok(obstacles) => obstacles,
+        self.sources.forget(at);
+        self.memory.expire(at.steady, self.settings.scans.memory);
+        let mut known: Vec<Known> = self.sources.at(at).collect();
+        known.extend(self.clusters.find(&mut self.memory, self.settings.scans.gap));
+        let obstacles: Vec<Obstacle> =
+            known.iter().map(|known| Obstacle { id: known.id, shape: known.shape.clone() }).collect();
+        let combined = match combine(&obstacles, self.settings.clearance) {
+            Ok(combined) => combined,
             Err(error) => {
                 self.health.set("hulls", Condition::Error, error.to_string());
                 return;
             }
         };
-        if changed {
-            sink.publish(MARKERS, &outlines(&obstacles, at.ros));
+        let apparent: Vec<msg::ApparentObstacle> = combined.iter().map(|one| to_message(one, &known)).collect();
+        self.diagnose(apparent.len());
+        if self.last_picture.is_none_or(|last| at.steady.seconds_since(last) >= PICTURES) {
+            let picture = Picture { apparent: &apparent, known: &known, memory: &self.memory };
+            if let Some(markers) = picture.markers(at.ros) {
+                self.last_picture = Some(at.steady);
+                sink.publish(MARKERS, &markers);
+            }
         }
-        self.health.set("hulls", Condition::Ok, format!("{} of {} obstacles", obstacles.len(), self.sources.len()));
         let header = Header { stamp: at.ros.into(), frame_id: "map".to_owned() };
-        let message = ApparentObstacleArray { header, clearance: self.settings.clearance, obstacles };
-        sink.publish(APPARENT_OBSTACLES, &message);
+        let clearance = self.settings.clearance;
+        sink.publish(APPARENT_OBSTACLES, &ApparentObstacleArray { header, clearance, obstacles: apparent });
     }
 
-    fn refuse(&mut self, what: &str, sink: &mut dyn Sink) {
-        self.refused += 1;
-        self.health.set("obstacles", Condition::Error, what);
-        self.health.value("obstacles", "refused", self.refused);
-        sink.log(Level::Warn, what);
+    fn diagnose(&mut self, hulls: usize) {
+        let message = format!("{hulls} of {} obstacles", self.sources.len());
+        self.health.set("hulls", Condition::Ok, message);
+        match self.sources.orphans() {
+            0 => {}
+            orphans => {
+                let message = format!("{orphans} publishers have gone, nobody knows which: all obstacles are kept");
+                self.health.set("hulls", Condition::Warn, message);
+            }
+        }
+        if !self.settings.robots.is_empty() {
+            self.health.value("hulls", "cells", self.memory.cells.len());
+            self.health.value("hulls", "scans", self.scans_taken);
+        }
+    }
+
+    fn obstacles(&mut self, at: Times, gid: [u8; 16], cdr: &[u8], sink: &mut dyn Sink) {
+        match ObstacleArray::decode(cdr) {
+            Ok(message) => {
+                for complaint in self.sources.take(at, gid, &message) {
+                    self.of_obstacles.refuse(&complaint, &mut self.health, sink);
+                }
+                if self.sources.complaints().next().is_none() {
+                    self.of_obstacles.accept("all are taken", &mut self.health);
+                }
+                self.publish(at, sink);
+            }
+            Err(error) => {
+                let what = format!("a message on /obstacles was dropped: {error}");
+                self.of_obstacles.refuse(&what, &mut self.health, sink);
+            }
+        }
+    }
+
+    fn scan(&mut self, at: Times, robot: usize, cdr: &[u8], sink: &mut dyn Sink) {
+        let name = self.settings.robots.get(robot).map_or("?", String::as_str);
+        let checked = LaserScan::decode(cdr).map_err(|error| error.to_string()).and_then(|scan| {
+            check(&scan)?;
+            let ahead = RosTime::from(&scan.header.stamp).seconds_since(at.ros);
+            if ahead > FUTURE { Err("its stamp is in the future".to_owned()) } else { Ok(scan) }
+        });
+        match checked {
+            Ok(scan) => {
+                if self.waiting.len() == MOST_WAITING {
+                    self.waiting.pop_front();
+                }
+                self.waiting.push_back((robot, scan, at.steady));
+                self.take_scans(at, sink);
+            }
+            Err(reason) => {
+                let what = format!("a scan of {name} was dropped: {reason}");
+                self.of_scans.refuse(&what, &mut self.health, sink);
+            }
+        }
+    }
+
+    /// Takes the scans whose robots' poses are known by now.
+    fn take_scans(&mut self, at: Times, sink: &mut dyn Sink) {
+        let mut known: Option<Vec<Known>> = None;
+        for (robot, scan, came) in std::mem::take(&mut self.waiting) {
+            let Some(name) = self.settings.robots.get(robot) else { continue };
+            let stamp = RosTime::from(&scan.header.stamp);
+            let pose = match self.team.whereabouts(name, stamp) {
+                Whereabouts::Later if at.steady.seconds_since(came) <= PATIENCE => {
+                    self.waiting.push_back((robot, scan, came));
+                    continue;
+                }
+                Whereabouts::At(pose) => pose,
+                Whereabouts::Later | Whereabouts::Unknown => {
+                    let what = format!("a scan of {name} was dropped: where it was taken is not known");
+                    self.of_scans.refuse(&what, &mut self.health, sink);
+                    continue;
+                }
+            };
+            let known = known.get_or_insert_with(|| self.sources.at(at).collect());
+            let bodies: Vec<Pose2> = self.team.all(stamp).collect();
+            let beams = locate(&scan, pose, &bodies, known, &self.settings.scans, &mut self.points);
+            let all = self.memory.see(at.steady, &self.points);
+            self.memory.clear(at.steady, &beams);
+            self.scans_taken += 1;
+            if all {
+                self.of_scans.accept("scans are taken", &mut self.health);
+            } else {
+                self.of_scans.refuse("lasers see more than there is memory for", &mut self.health, sink);
+            }
+        }
+    }
+}
+
+/// An apparent obstacle with the velocity of its fastest member.
+fn to_message(apparent: &ApparentObstacle, known: &[Known]) -> msg::ApparentObstacle {
+    let members = known.iter().filter(|known| apparent.members.contains(&known.id));
+    let velocity = members.map(|known| known.velocity).max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
+    let velocity = velocity.unwrap_or_default();
+    let outline = apparent.shape.outline();
+    msg::ApparentObstacle {
+        id: apparent.id,
+        hull: outline.points.iter().map(|point| Point2 { x: point.x, y: point.y }).collect(),
+        radius: outline.radius,
+        velocity: Point2 { x: velocity.x, y: velocity.y },
+        members: apparent.members.clone(),
     }
 }
 
@@ -116,17 +252,20 @@ impl NodeCore for ObstacleMapper {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Started => self.publish(at, true, sink),
-            Event::Wakeup => self.publish(at, false, sink),
-            Event::Message { port: OBSTACLES, source, cdr } => match ObstacleArray::decode(cdr) {
+            Event::Started | Event::Wakeup => self.publish(at, sink),
+            Event::Matched { port: OBSTACLES, writers } => self.sources.connected(writers),
+            Event::Message { port: OBSTACLES, source, cdr } => self.obstacles(at, source.gid, cdr, sink),
+            Event::Message { port: TEAM, cdr, .. } => match TeamState::decode(cdr) {
                 Ok(message) => {
-                    for (id, reason) in self.sources.take(source.gid, &message) {
-                        self.refuse(&format!("obstacle {id} is left out: {reason}"), sink);
-                    }
-                    self.publish(at, true, sink);
+                    self.team.take(&message);
+                    self.take_scans(at, sink);
                 }
-                Err(error) => self.refuse(&format!("a message on /obstacles was dropped: {error}"), sink),
+                Err(error) => {
+                    let what = format!("a message on /team_state was dropped: {error}");
+                    self.of_scans.refuse(&what, &mut self.health, sink);
+                }
             },
+            Event::Message { port, cdr, .. } => self.scan(at, port.saturating_sub(SCANS), cdr, sink),
             _ => {}
         }
         self.health.publish(at, DIAGNOSTICS, sink);

@@ -1,52 +1,85 @@
-//! Apparent obstacles as RViz2 and Foxglove draw them.
+//! What the mapper knows as RViz2 and Foxglove draw it: apparent obstacles red, the hulls of their members grey, what
+//! lasers have seen as dots.
 
-use trench_core::RosTime;
-use trench_msgs::geometry_msgs::Point;
+use crate::scans::Memory;
+use crate::sources::Known;
+use trench_core::{RosTime, duration_from_seconds};
+use trench_formation::Vector2;
+use trench_formation::hull::Outline;
+use trench_msgs::geometry_msgs::{Point, Vector3};
 use trench_msgs::msg::ApparentObstacle;
 use trench_msgs::std_msgs::{ColorRGBA, Header};
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
 /// Corners that stand for a rounded one.
 const ROUND: usize = 16;
+/// The shortest time between two pictures, s.
+pub(crate) const PICTURES: f64 = 0.19;
+/// What a viewer shows goes away after this, s: nobody else's markers are deleted, and none stays of a mapper that ended.
+const LIFETIME: f64 = 0.6;
 
-/// The outlines of all apparent obstacles, after a marker that deletes the old ones.
-pub(crate) fn outlines(obstacles: &[ApparentObstacle], stamp: RosTime) -> MarkerArray {
-    let clear =
-        Marker { action: Marker::DELETEALL, ns: NAMESPACE.to_owned(), header: header(stamp), ..Marker::default() };
-    let mut markers = vec![clear];
-    markers.extend(obstacles.iter().map(|obstacle| outline(obstacle, stamp)));
-    MarkerArray { markers }
+/// What is drawn.
+pub(crate) struct Picture<'a> {
+    pub(crate) apparent: &'a [ApparentObstacle],
+    pub(crate) known: &'a [Known],
+    pub(crate) memory: &'a Memory,
 }
 
-const NAMESPACE: &str = "apparent_obstacles";
-
-fn header(stamp: RosTime) -> Header {
-    Header { stamp: stamp.into(), frame_id: "map".to_owned() }
+impl Picture<'_> {
+    /// All markers; nothing where there is nothing to draw.
+    pub(crate) fn markers(&self, stamp: RosTime) -> Option<MarkerArray> {
+        let corner = |point: &trench_msgs::msg::Point2| Vector2::new(point.x, point.y);
+        let red = ColorRGBA { r: 0.8, g: 0.25, b: 0.1, a: 0.9 };
+        let grey = ColorRGBA { r: 0.4, g: 0.4, b: 0.4, a: 0.7 };
+        let mut markers: Vec<Marker> = Vec::new();
+        for obstacle in self.apparent {
+            let points: Vec<Vector2<f64>> = obstacle.hull.iter().map(corner).collect();
+            let outline = Outline { points: &points, radius: obstacle.radius };
+            markers.push(strip("apparent_obstacles", obstacle.id, outline, 0.01, red, stamp));
+        }
+        for known in self.known {
+            markers.push(strip("apparent_obstacles/members", known.id, known.shape.outline(), 0.004, grey, stamp));
+        }
+        if !self.memory.cells.is_empty() {
+            let mut dots = marker("apparent_obstacles/scans", 0, Marker::POINTS, red, stamp);
+            dots.scale = Vector3 { x: 0.015, y: 0.015, z: 0.0 };
+            let point = |point: Vector2<f64>| Point { x: point.x, y: point.y, z: 0.0 };
+            dots.points = self.memory.cells.values().map(|cell| point(cell.point)).collect();
+            markers.push(dots);
+        }
+        (!markers.is_empty()).then_some(MarkerArray { markers })
+    }
 }
 
-fn outline(obstacle: &ApparentObstacle, stamp: RosTime) -> Marker {
+fn marker(namespace: &str, id: u32, kind: i32, color: ColorRGBA, stamp: RosTime) -> Marker {
     let mut marker = Marker {
-        header: header(stamp),
-        ns: NAMESPACE.to_owned(),
-        id: obstacle.id as i32,
-        r#type: Marker::LINE_STRIP,
+        header: Header { stamp: stamp.into(), frame_id: "map".to_owned() },
+        ns: namespace.to_owned(),
+        id: id as i32,
+        r#type: kind,
         action: Marker::ADD,
-        color: ColorRGBA { r: 0.8, g: 0.25, b: 0.1, a: 0.9 },
-        points: rounded(obstacle),
+        color,
+        lifetime: duration_from_seconds(LIFETIME),
         ..Marker::default()
     };
     marker.pose.orientation.w = 1.0;
-    marker.scale.x = 0.01;
+    marker
+}
+
+fn strip(namespace: &str, id: u32, outline: Outline<'_>, width: f64, color: ColorRGBA, stamp: RosTime) -> Marker {
+    let mut marker = marker(namespace, id, Marker::LINE_STRIP, color, stamp);
+    marker.points = rounded(outline);
+    marker.scale.x = width;
     marker
 }
 
 /// The hull grown by its radius: at each corner the arc between the normals of its edges, closed at the end.
-fn rounded(obstacle: &ApparentObstacle) -> Vec<Point> {
-    let corners = &obstacle.hull;
+fn rounded(outline: Outline<'_>) -> Vec<Point> {
+    let corners = outline.points;
     let mut points = Vec::new();
     for (index, corner) in corners.iter().enumerate() {
-        let before = &corners[(index + corners.len() - 1) % corners.len()];
-        let after = &corners[(index + 1) % corners.len()];
+        let before = corners[(index + corners.len() - 1) % corners.len()];
+        let after = corners[(index + 1) % corners.len()];
         let normal = |dx: f64, dy: f64| libm::atan2(-dx, dy);
         let (from, mut to) = if corners.len() == 1 {
             (0.0, std::f64::consts::TAU)
@@ -59,7 +92,7 @@ fn rounded(obstacle: &ApparentObstacle) -> Vec<Point> {
         for step in 0..=ROUND {
             let angle = from + (to - from) * step as f64 / ROUND as f64;
             let (sin, cos) = libm::sincos(angle);
-            points.push(Point { x: corner.x + obstacle.radius * cos, y: corner.y + obstacle.radius * sin, z: 0.0 });
+            points.push(Point { x: corner.x + outline.radius * cos, y: corner.y + outline.radius * sin, z: 0.0 });
         }
     }
     points.extend(points.first().cloned());
@@ -69,14 +102,11 @@ fn rounded(obstacle: &ApparentObstacle) -> Vec<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_msgs::msg::Point2;
 
     #[test]
     fn every_point_lies_on_the_grown_outline() {
-        let corner = |x, y| Point2 { x, y };
-        let square = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
-        let obstacle = ApparentObstacle { hull: square, radius: 0.1, ..Default::default() };
-        let points = rounded(&obstacle);
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vector2::new(x, y));
+        let points = rounded(Outline { points: &square, radius: 0.1 });
         assert_eq!(points.len(), 4 * (ROUND + 1) + 1);
         for point in &points {
             let outside = |value: f64| (value - 1.0).max(-value).max(0.0);
@@ -87,8 +117,7 @@ mod tests {
 
     #[test]
     fn a_disc_is_a_circle() {
-        let disc = ApparentObstacle { hull: vec![Point2 { x: 2.0, y: 0.0 }], radius: 0.5, ..Default::default() };
-        let points = rounded(&disc);
+        let points = rounded(Outline { points: &[Vector2::new(2.0, 0.0)], radius: 0.5 });
         assert!(points.iter().all(|point| (libm::hypot(point.x - 2.0, point.y) - 0.5).abs() < 1e-12));
     }
 }

@@ -92,11 +92,12 @@ impl Testbed {
     }
 
     fn scan(&self, at: Times, scan: Scan, sink: &mut dyn Sink) {
-        let (Some(name), Some(laser)) = (self.settings.robots.get(scan.robot), &self.settings.bed.laser) else {
-            return;
-        };
-        let message = messages::scan(ros(at, scan.at), name, laser, scan.ranges);
-        sink.publish(self.ports.scans + scan.robot, &message);
+        let Settings { robots, bed, .. } = &self.settings;
+        let laser = bed.lasers.iter().position(|robot| *robot == scan.robot);
+        if let (Some(name), Some(laser)) = (robots.get(scan.robot), laser) {
+            let message = messages::scan(ros(at, scan.at), name, &bed.laser, scan.ranges);
+            sink.publish(self.ports.scans + laser, &message);
+        }
     }
 
     fn frame(&mut self, at: Times, frame: &Frame, sink: &mut dyn Sink) {

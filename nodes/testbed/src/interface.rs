@@ -28,7 +28,7 @@ pub(crate) struct Ports {
     pub(crate) clock: Option<usize>,
     /// The first robot's; the others follow.
     pub(crate) truth: usize,
-    /// The first robot's, if they have lasers; the others follow.
+    /// The first laser's; the others follow.
     pub(crate) scans: usize,
 }
 
@@ -94,13 +94,11 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         publications.push(Advertise { topic, type_info: Odometry::TYPE, qos: Qos::RELIABLE, local: network });
     }
     let scans = publications.len();
-    if let Some(laser) = settings.bed.laser {
-        for robot in &settings.robots {
-            // Ranges, and room for the rest of the message.
-            let local = Local::SharedMemory { max_len: 4 * laser.rays + 256 };
-            let topic = format!("/{robot}/scan");
-            publications.push(Advertise { topic, type_info: LaserScan::TYPE, qos: Qos::SENSOR, local });
-        }
+    for robot in settings.bed.lasers.iter().filter_map(|index| settings.robots.get(*index)) {
+        // Ranges, and room for the rest of the message.
+        let local = Local::SharedMemory { max_len: 4 * settings.bed.laser.rays + 512 };
+        let topic = format!("/{robot}/scan");
+        publications.push(Advertise { topic, type_info: LaserScan::TYPE, qos: Qos::SENSOR, local });
     }
     let interface = Interface {
         publications,

@@ -61,7 +61,8 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("pad.height", Pad::NOMINAL.height, "m, above the floor").range(0.0, 1.0),
         P::string("obstacles_file", "", "YAML list of obstacles; empty: none"),
         P::bool("publish_obstacles", true, "tell of them on /obstacles; false: lasers must find them"),
-        P::double("laser.rate", 0.0, "scans a second of each robot's laser; 0: robots have none").range(0.0, 100.0),
+        P::string_list("laser.robots", &[], "names of the robots that carry a laser"),
+        P::double("laser.rate", 10.0, "scans a second").range(0.1, 100.0),
         P::double("laser.range_min", 0.1, "m, what is nearer is not measured").range(0.0, 100.0),
         P::double("laser.range_max", 3.5, "m, what is farther is not seen").range(0.01, 100.0),
         P::double("laser.field_of_view", std::f64::consts::TAU, "rad, half of it to either side of the front")
@@ -147,6 +148,7 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
             exposure: nanoseconds(double("camera.exposure")?),
             delay: nanoseconds(double("camera.delay")?),
         },
+        lasers: lasers(parameters)?,
         laser: laser(parameters)?,
         baud: u32::try_from(parameters.usize("serial.baud")?).unwrap_or(u32::MAX),
         key,
@@ -154,11 +156,8 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
 }
 
 /// Scans are at whole milliseconds, where the world is exact.
-fn laser(parameters: &Parameters) -> Result<Option<Laser>, ConfigError> {
+fn laser(parameters: &Parameters) -> Result<Laser, ConfigError> {
     let rate = parameters.f64("laser.rate")?;
-    if rate <= 0.0 {
-        return Ok(None);
-    }
     let laser = Laser {
         period: ((1e3 / rate).round().max(1.0) as u64).saturating_mul(1_000_000),
         range_min: parameters.f64("laser.range_min")?,
@@ -171,7 +170,24 @@ fn laser(parameters: &Parameters) -> Result<Option<Laser>, ConfigError> {
         let remedy = format!("write more than {}", laser.range_min);
         return Err(parameters.error("laser.range_max", "is not beyond laser.range_min", remedy));
     }
-    Ok(Some(laser))
+    Ok(laser)
+}
+
+/// Indices of the robots with lasers.
+fn lasers(parameters: &Parameters) -> Result<Vec<usize>, ConfigError> {
+    let (robots, names) = (parameters.str_list("robots")?, parameters.str_list("laser.robots")?);
+    let mut indices = Vec::with_capacity(names.len());
+    for name in names {
+        let Some(index) = robots.iter().position(|robot| robot == name) else {
+            let problem = format!("{name} is no robot");
+            return Err(parameters.error("laser.robots", problem, format!("write some of {}", robots.join(", "))));
+        };
+        if indices.contains(&index) {
+            return Err(parameters.error("laser.robots", format!("{name} is there twice"), "name each robot once"));
+        }
+        indices.push(index);
+    }
+    Ok(indices)
 }
 
 /// The robots' ids, each once, as many as names.

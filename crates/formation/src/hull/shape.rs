@@ -17,6 +17,19 @@ impl Shape {
     /// [`HullError`] for no points, numbers that are not finite, a negative radius, polygons without area or that cross
     /// themselves.
     pub fn new(points: &[Vector2<f64>], radius: f64) -> Result<Self, HullError> {
+        let hull = Self::enclosing(points, radius)?;
+        if points.len() >= 3 && hull.points.len() < 3 {
+            return Err(HullError::NoArea);
+        }
+        simple(points)?;
+        Ok(hull)
+    }
+
+    /// Convex hull of any points, of a polygon that is none too, grown by `radius` (m).
+    ///
+    /// # Errors
+    /// [`HullError`] for no points, numbers that are not finite and a negative radius.
+    pub fn enclosing(points: &[Vector2<f64>], radius: f64) -> Result<Self, HullError> {
         if points.is_empty() {
             return Err(HullError::NoPoints);
         }
@@ -24,13 +37,15 @@ impl Shape {
             return Err(HullError::NotFinite(corner));
         }
         let radius = length("the radius", radius)?;
-        let mut hull = points.to_vec();
-        convex_hull(&mut hull);
-        if points.len() >= 3 && hull.len() < 3 {
-            return Err(HullError::NoArea);
-        }
-        simple(points)?;
-        Ok(Self { points: hull, radius })
+        let mut points = points.to_vec();
+        convex_hull(&mut points);
+        Ok(Self { points, radius })
+    }
+
+    /// The same shape elsewhere: moved by `offset` (m), which must be finite.
+    #[must_use]
+    pub fn moved(&self, offset: Vector2<f64>) -> Self {
+        Self { points: self.points.iter().map(|point| point + offset).collect(), radius: self.radius }
     }
 
     /// Hull of several shapes, which must not be empty. It is grown by the least of their radii; rounder corners become

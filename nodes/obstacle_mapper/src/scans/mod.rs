@@ -1,0 +1,9 @@
+//! From the robots' lasers to partial boundaries (Remark 7.4.1).
+
+mod clusters;
+mod intake;
+mod memory;
+
+pub(crate) use clusters::Clusters;
+pub(crate) use intake::{Beams, check, locate};
+pub(crate) use memory::Memory;

@@ -1,0 +1,75 @@
+//! The mapper's parameters.
+
+use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
+use trench_optics::Pose2;
+
+/// What the mapper is told.
+#[derive(Debug, Clone)]
+pub(crate) struct Settings {
+    /// Whose scans are heard.
+    pub(crate) robots: Vec<String>,
+    pub(crate) clearance: f64,
+    /// Between two messages, s.
+    pub(crate) period: f64,
+    pub(crate) scans: ScanSettings,
+}
+
+/// How scans become obstacles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ScanSettings {
+    /// Of all robots, m.
+    pub(crate) body_radius: f64,
+    /// Of the laser on its robot.
+    pub(crate) laser: Pose2,
+    /// How far a measured point may be from what it belongs to, m.
+    pub(crate) tolerance: f64,
+    /// Points nearer than this are one boundary, m.
+    pub(crate) gap: f64,
+    /// How long a point is kept after it was last seen, s.
+    pub(crate) memory: f64,
+}
+
+pub(crate) fn descriptors() -> Vec<P> {
+    vec![
+        P::double("clearance", 0.2, "m, hulls nearer to each other than this are combined").range(0.0, 100.0),
+        P::double("rate", 20.0, "1/s, at which /apparent_obstacles is sent").range(10.0, 100.0),
+        P::string_list("robots", &[], "names of the robots whose lasers are heard, on <r>/scan").read_only(),
+        P::double("body.radius", 0.08, "m, of the robots: what lasers see of them is no obstacle").range(0.0, 2.0),
+        P::double_list("laser.pose", &[0.0, 0.0, 0.0], "m, m, rad: x, y and heading of the laser on its robot")
+            .range(-10.0, 10.0),
+        P::double(
+            "scan.tolerance",
+            0.05,
+            "m, how far a measured point may be from the robot or obstacle it belongs to",
+        )
+        .range(0.0, 1.0),
+        P::double("scan.gap", 0.15, "m, measured points nearer to each other than this are one boundary")
+            .range(0.01, 10.0),
+        P::double("scan.memory", 3.0, "s, how long what no laser sees any more is kept").range(0.1, 3600.0),
+    ]
+}
+
+impl Settings {
+    pub(crate) fn read(parameters: &Parameters) -> Result<Self, ConfigError> {
+        let robots = parameters.str_list("robots")?.to_vec();
+        if let Some(twice) = robots.iter().enumerate().find(|(index, name)| robots[..*index].contains(name)) {
+            return Err(parameters.error("robots", format!("{} is there twice", twice.1), "name each robot once"));
+        }
+        if robots.iter().any(String::is_empty) {
+            return Err(parameters.error("robots", "has an empty name", "give each robot a name"));
+        }
+        let [x, y, theta] = parameters.f64_array("laser.pose")?;
+        Ok(Self {
+            robots,
+            clearance: parameters.f64("clearance")?,
+            period: 1.0 / parameters.f64("rate")?,
+            scans: ScanSettings {
+                body_radius: parameters.f64("body.radius")?,
+                laser: Pose2 { x, y, theta },
+                tolerance: parameters.f64("scan.tolerance")?,
+                gap: parameters.f64("scan.gap")?,
+                memory: parameters.f64("scan.memory")?,
+            },
+        })
+    }
+}

@@ -1,0 +1,255 @@
+//! The node as its neighbours see it: obstacles and scans in, apparent obstacles out.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use obstacle_mapper::description;
+use trench_config::params::{Source as Setting, resolve};
+use trench_config::{ConfigError, Parameters};
+use trench_core::{Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source, Steady, Times};
+use trench_msgs::Encode;
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::msg::{ApparentObstacleArray, Obstacle, ObstacleArray, Point2, RobotState, TeamState};
+use trench_msgs::sensor_msgs::LaserScan;
+use trench_msgs::std_msgs::Header;
+use trench_msgs::visualization_msgs::MarkerArray;
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, key: &str, _: &str) -> Result<String, ConfigError> {
+        Err(Parameters::default().error(key, "cannot be read", "name no file"))
+    }
+}
+
+struct Bench {
+    core: Box<dyn NodeCore>,
+    out: Outbox,
+    seconds: f64,
+}
+
+impl Bench {
+    fn new(overrides: &[(&str, &str)]) -> Self {
+        let settings: Vec<Setting<'_>> =
+            overrides.iter().map(|(name, value)| Setting::Override { node: None, name, value }).collect();
+        let node = description();
+        let parameters = resolve(&settings, "/", node.name, &(node.parameters)()).unwrap();
+        let context = NodeContext { namespace: "/".to_owned(), name: node.name.to_owned(), ..NodeContext::default() };
+        let core = (node.build)(&context, &parameters, &NoFiles).unwrap();
+        let mut bench = Self { core, out: Outbox::default(), seconds: 1000.0 };
+        bench.handle(Event::Started);
+        bench
+    }
+
+    fn now(&self) -> RosTime {
+        RosTime(0).plus_seconds(self.seconds)
+    }
+
+    fn handle(&mut self, event: Event<'_>) {
+        let at = Times { ros: self.now(), steady: Steady(0).plus_seconds(self.seconds) };
+        self.core.handle(at, event, &mut self.out);
+    }
+
+    fn send(&mut self, topic: &str, gid: u8, cdr: &[u8]) {
+        let port = self.core.interface().subscriptions.iter().position(|reader| reader.topic == topic).unwrap();
+        self.handle(Event::Message { port, source: Source { gid: [gid; 16], sequence: 1 }, cdr });
+    }
+
+    fn header(&self) -> Header {
+        Header { stamp: self.now().into(), ..Header::default() }
+    }
+
+    fn obstacles(&mut self, obstacles: Vec<Obstacle>) {
+        let message = ObstacleArray { header: self.header(), obstacles };
+        self.send("/obstacles", 1, &message.to_cdr());
+    }
+
+    /// Robots at places, heading along x.
+    fn team(&mut self, places: &[[f64; 2]]) {
+        let robot = |(index, [x, y]): (usize, &[f64; 2])| RobotState {
+            name: format!("robot{}", index + 1),
+            status: RobotState::STATUS_TRACKED,
+            x: *x,
+            y: *y,
+            ..RobotState::default()
+        };
+        let robots = places.iter().enumerate().map(robot).collect();
+        let message = TeamState { header: self.header(), robots, ..TeamState::default() };
+        self.send("/team_state", 2, &message.to_cdr());
+    }
+
+    fn wake(&mut self) -> ApparentObstacleArray {
+        self.handle(Event::Wakeup);
+        self.out.last(0).unwrap()
+    }
+
+    fn condition(&self, part: &str) -> (u8, String) {
+        let array: DiagnosticArray = self.out.last(2).unwrap();
+        let status = array.status.iter().find(|status| status.name.ends_with(part)).unwrap();
+        (status.level, status.message.clone())
+    }
+}
+
+fn disc(id: u32, x: f64, speed: f64) -> Obstacle {
+    Obstacle { id, polygon: vec![Point2 { x, y: 0.0 }], radius: 0.1, velocity: Point2 { x: speed, y: 0.0 } }
+}
+
+/// What a laser at `from` sees of a wall along x = 2, from y = -1 to 1, and of a robot's body.
+fn scan(header: Header, from: [f64; 2], body: Option<[f64; 2]>) -> LaserScan {
+    let rays = 360_u16;
+    let range = |ray: u16| {
+        let (sin, cos) = libm::sincos(f64::from(ray).to_radians());
+        let wall = (2.0 - from[0]) / cos;
+        let wall = if wall > 0.0 && (from[1] + wall * sin).abs() < 1.0 { wall } else { f64::INFINITY };
+        let body = body.map_or(f64::INFINITY, |[x, y]| {
+            let along = (x - from[0]) * cos + (y - from[1]) * sin;
+            let beside = (x - from[0]) * sin - (y - from[1]) * cos;
+            if along > 0.0 && beside.abs() < 0.08 { along - (0.0064 - beside * beside).sqrt() } else { f64::INFINITY }
+        });
+        wall.min(body) as f32
+    };
+    LaserScan {
+        header,
+        angle_increment: 1_f32.to_radians(),
+        range_min: 0.1,
+        range_max: 3.5,
+        ranges: (0..rays).map(range).collect(),
+        ..LaserScan::default()
+    }
+}
+
+const TWO: (&str, &str) = ("robots", "[robot1, robot2]");
+
+#[test]
+fn near_ones_are_combined_and_move_as_the_fastest() {
+    let mut bench = Bench::new(&[]);
+    bench.obstacles(vec![disc(1, 0.0, 0.0), disc(2, 0.3, -0.2), disc(3, 2.0, 0.0)]);
+    let combined: ApparentObstacleArray = bench.out.last(0).unwrap();
+    assert_eq!(combined.obstacles.len(), 2);
+    assert_eq!((&combined.obstacles[0].members[..], combined.obstacles[0].velocity.x), (&[1, 2][..], -0.2));
+    assert_eq!(combined.obstacles[1].members, [3]);
+    // Half a second later the second one is 0.1 m nearer to the first one.
+    bench.seconds += 0.5;
+    let later = bench.wake();
+    assert!((later.obstacles[0].hull.iter().map(|point| point.x).fold(0.0, f64::max) - 0.2).abs() < 1e-9);
+    let markers: MarkerArray = bench.out.last(1).unwrap();
+    assert_eq!(markers.markers.len(), 2 + 3);
+}
+
+#[test]
+fn it_speaks_ten_times_a_second_and_more_whatever_happens() {
+    let mut bench = Bench::new(&[TWO]);
+    for _ in 0..100 {
+        let due = bench.core.next_wakeup().unwrap();
+        assert!(due.seconds_since(Steady(0).plus_seconds(bench.seconds)) <= 0.1);
+        bench.seconds = due.0 as f64 * 1e-9;
+        assert_eq!(bench.wake().obstacles, []);
+    }
+}
+
+#[test]
+fn what_lasers_see_becomes_an_obstacle_with_one_identity() {
+    let mut bench = Bench::new(&[TWO]);
+    let places = [[0.5, 0.0], [1.2, 0.3]];
+    let mut ids = Vec::new();
+    for tick in 0..20_u8 {
+        bench.seconds += 0.1;
+        // Each robot sees the wall, and the other one's body, which is no obstacle.
+        for (robot, other) in [(0, 1), (1, 0)] {
+            let scan = scan(bench.header(), places[robot], Some(places[other]));
+            bench.send(&format!("/robot{}/scan", robot + 1), 10 + robot as u8, &scan.to_cdr());
+        }
+        assert!(tick > 0 || bench.wake().obstacles.is_empty(), "poses at that time are not known yet");
+        bench.team(&places);
+        let known = bench.wake();
+        assert_eq!(known.obstacles.len(), 1, "{known:?}");
+        ids.push(known.obstacles[0].id);
+    }
+    assert!(ids.iter().all(|id| *id == ids[0]), "{ids:?}");
+    let wall = bench.wake().obstacles.remove(0);
+    let span = |axis: fn(&Point2) -> f64| {
+        let values: Vec<f64> = wall.hull.iter().map(axis).collect();
+        (values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max))
+    };
+    let ((left, right), (low, high)) = (span(|point| point.x), span(|point| point.y));
+    assert!(left > 1.99 && right < 2.01 && low < -0.9 && high > 0.9, "{wall:?}");
+    // The wall is carried away: rays pass where it was.
+    for _ in 0..5 {
+        bench.seconds += 0.1;
+        let mut empty = scan(bench.header(), places[0], Some(places[1]));
+        for range in &mut empty.ranges {
+            *range = f32::INFINITY;
+        }
+        bench.send("/robot1/scan", 10, &empty.to_cdr());
+        bench.team(&places);
+    }
+    assert_eq!(bench.wake().obstacles, []);
+}
+
+#[test]
+fn what_nobody_sees_any_more_is_forgotten() {
+    let mut bench = Bench::new(&[TWO, ("scan.memory", "1.0")]);
+    bench.team(&[[0.5, 0.0], [0.5, 5.0]]);
+    let seen = scan(bench.header(), [0.5, 0.0], None);
+    bench.send("/robot1/scan", 10, &seen.to_cdr());
+    assert_eq!(bench.wake().obstacles.len(), 1);
+    bench.seconds += 0.95;
+    assert_eq!(bench.wake().obstacles.len(), 1);
+    bench.seconds += 0.1;
+    assert_eq!(bench.wake().obstacles, []);
+}
+
+#[test]
+fn a_lost_robots_body_is_an_obstacle_and_its_scan_is_not_used() {
+    let mut bench = Bench::new(&[TWO]);
+    bench.team(&[[0.5, 0.0]]);
+    let seen = scan(bench.header(), [0.5, 0.0], Some([1.2, 0.0]));
+    bench.send("/robot1/scan", 10, &seen.to_cdr());
+    let blind = scan(bench.header(), [1.2, 0.0], None);
+    bench.send("/robot2/scan", 11, &blind.to_cdr());
+    let known = bench.wake();
+    assert!(known.obstacles.iter().any(|one| one.hull.iter().all(|point| point.x < 1.3)), "{known:?}");
+    let (level, message) = bench.condition("scans");
+    assert!(level == 2 && message.contains("robot2"), "{level} {message}");
+}
+
+#[test]
+fn bad_messages_are_told_of_and_good_ones_end_it() {
+    let mut bench = Bench::new(&[TWO]);
+    bench.obstacles(vec![Obstacle { radius: -1.0, ..disc(7, 0.0, 0.0) }, disc(8, 0.0, 0.0)]);
+    let (level, message) = bench.condition("obstacles");
+    assert!(level == 2 && message.contains("obstacle 7 is left out: the radius is -1"), "{message}");
+    assert_eq!(bench.wake().obstacles.len(), 1);
+    bench.seconds += 0.1;
+    bench.obstacles(vec![disc(8, 0.0, 0.0)]);
+    assert_eq!(bench.condition("obstacles").0, 0);
+    bench.send("/obstacles", 1, &[0, 1, 0]);
+    assert_eq!(bench.condition("obstacles").0, 2);
+
+    bench.team(&[[0.5, 0.0], [0.5, 1.0]]);
+    let mut bad = scan(bench.header(), [0.5, 0.0], None);
+    bad.range_max = f32::NAN;
+    bench.send("/robot1/scan", 10, &bad.to_cdr());
+    assert!(bench.condition("scans").1.contains("a scan of robot1 was dropped: its limits are"));
+    let mut early = scan(bench.header(), [0.5, 0.0], None);
+    early.header.stamp = bench.now().plus_seconds(5.0).into();
+    bench.send("/robot1/scan", 10, &early.to_cdr());
+    let mut late = early;
+    late.header.stamp = bench.now().plus_seconds(-5.0).into();
+    bench.send("/robot2/scan", 11, &late.to_cdr());
+    bench.seconds += 1.0;
+    bench.wake();
+    assert!(bench.condition("scans").1.contains("robot2"), "{:?}", bench.condition("scans"));
+    assert_eq!(bench.wake().obstacles.len(), 1, "nothing of them is taken");
+}
+
+#[test]
+fn obstacles_of_a_publisher_that_has_gone_are_forgotten() {
+    let mut bench = Bench::new(&[]);
+    bench.handle(Event::Matched { port: 0, writers: 1 });
+    bench.obstacles(vec![disc(1, 0.0, 0.0)]);
+    bench.seconds += 0.1;
+    bench.obstacles(vec![disc(1, 0.0, 0.0)]);
+    bench.seconds += 100.0;
+    assert_eq!(bench.wake().obstacles.len(), 1, "it is connected and has nothing new to say");
+    bench.handle(Event::Matched { port: 0, writers: 0 });
+    assert_eq!(bench.wake().obstacles, []);
+}
