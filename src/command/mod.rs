@@ -5,6 +5,7 @@ mod check;
 mod launch;
 mod plot;
 mod sim;
+mod view;
 
 use clap::Parser;
 use std::fmt::Display;
@@ -20,6 +21,7 @@ pub(crate) enum Command {
     Launch(launch::Arguments),
     Plot(plot::Arguments),
     Sim(sim::Arguments),
+    View(view::Arguments),
 }
 
 impl Command {
@@ -31,6 +33,7 @@ impl Command {
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::View(arguments) => view::run(&arguments),
         }
     }
 }

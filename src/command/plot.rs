@@ -52,6 +52,11 @@ enum PlotError {
     Drawing { name: &'static str, problem: String },
 }
 
+/// The colours of robots in the order of their names, as style sheets write them.
+pub(super) fn colours() -> Vec<String> {
+    style::COLOURS.iter().map(|colour| format!("#{:02x}{:02x}{:02x}", colour.0, colour.1, colour.2)).collect()
+}
+
 /// Draws all pictures and says where they are.
 pub(super) fn run(arguments: &Arguments) -> ExitCode {
     match draw_all(arguments) {

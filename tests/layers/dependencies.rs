@@ -24,11 +24,12 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("trench_runtime", &["trench_config", "trench_core", "trench_journal", "trench_msgs", "trench_rosidl"]),
     ("trench_harness", &["trench_bag", "trench_config", "trench_core", "trench_launch", "trench_msgs", NODES]),
     ("trench_harness", &["trench_journal"]),
+    ("trench_view", &["trench_bag", "trench_core", "trench_msgs", "trench_plan"]),
     (NODES, &["trench_config", "trench_core", "trench_msgs", LIBRARIES_OF_NODES]),
     ("testbed", &["trench_sim"]),
     (CAMERA, &["trench_bag"]),
     ("trench", &["trench_bag", "trench_config", "trench_core", "trench_harness", "trench_launch", "trench_msgs"]),
-    ("trench", &["trench_check", "trench_journal", "trench_plan", "trench_runtime"]),
+    ("trench", &["trench_check", "trench_journal", "trench_plan", "trench_runtime", "trench_view"]),
 ];
 
 /// The one node that reads devices, image folders and bags itself: what it publishes is new to the system, and recorded.

@@ -25,5 +25,5 @@ mod timer;
 mod transport;
 
 pub use exit::Exit;
-pub use run::{run, run_without_journal};
+pub use run::{run, run_with_arguments, run_without_journal};
 pub use transport::TransportError;

@@ -75,6 +75,16 @@ pub fn run_without_journal(description: NodeDescription) -> ExitCode {
     run_with(description, None)
 }
 
+/// As [`run_without_journal`] with this command line instead of the process's own; gives the exit code. It returns, so
+/// that a program can run a node once more.
+#[must_use]
+pub fn run_with_arguments(description: NodeDescription, arguments: impl Iterator<Item = String>) -> u8 {
+    try_run(description, arguments, None).unwrap_or_else(|error| {
+        eprintln!("{}: {error}", description.name);
+        error.exit() as u8
+    })
+}
+
 fn run_with(description: NodeDescription, journals: Option<Journals>) -> ExitCode {
     match try_run(description, env::args().skip(1), journals.as_ref()) {
         Ok(code) => ExitCode::from(code),

@@ -1,0 +1,136 @@
+//! `trench view`: the live picture in a browser.
+
+mod guard;
+mod hub;
+mod node;
+mod serve;
+mod stream;
+
+use super::say;
+use clap::Args;
+use guard::Guard;
+use hub::Hub;
+use serve::{Picture, serve};
+use std::net::{IpAddr, SocketAddr, TcpListener};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use trench_bag::{BagError, BagReader};
+use trench_view::{LoadError, Recording};
+
+/// Shows the field in a browser: robots, trails, the formation, obstacles, alarms; live, or from a bag.
+///
+/// Serves one page on this host alone and prints its address. Live, it is a node that listens and says nothing.
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The port of the page; 0 takes any that is free.
+    #[arg(long, default_value_t = 8420)]
+    port: u16,
+    /// The address to serve on. Others than this host's own loopback show the picture to everyone who reaches it.
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
+    bind: IpAddr,
+    /// A name under which browsers may ask for the page, besides localhost and addresses.
+    #[arg(long, value_name = "NAME")]
+    allow_host: Vec<String>,
+    /// Plays this bag (a folder or an .mcap file) instead of what happens now.
+    #[arg(long, value_name = "FOLDER")]
+    bag: Option<PathBuf>,
+    /// The robots to listen to; by default those that /team_state tells of.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', conflicts_with = "bag")]
+    robots: Vec<String>,
+    /// Shows the simulated bed's ground truth and collisions too. (A bag shows what it has.)
+    #[arg(long, conflicts_with = "bag")]
+    ground_truth: bool,
+    /// The field's corners, m; by default what the overhead camera sees.
+    #[arg(long, value_names = ["X0", "Y0", "X1", "Y1"], num_args = 4, default_values_t = [0.0, 0.0, 2.48, 1.83], allow_negative_numbers = true)]
+    field: Vec<f64>,
+    /// Radii of the zones to draw around each robot, m.
+    #[arg(long, value_name = "METRES", value_delimiter = ',')]
+    zones: Vec<f64>,
+    /// Further arguments of the node, for example `--ros-args -p use_sim_time:=true`.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    node_arguments: Vec<String>,
+}
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+enum ViewError {
+    #[error("{address}: {source}; is another trench view running? Name another port with --port")]
+    Bind { address: SocketAddr, source: std::io::Error },
+    #[error(transparent)]
+    Bag(#[from] BagError),
+    #[error("{}: {source}", path.display())]
+    Load { path: PathBuf, source: LoadError },
+    #[error("--{0} wants numbers that are finite, the field two different corners, radii above 0")]
+    Number(&'static str),
+    #[error("the server failed: {0}")]
+    Serve(#[from] std::io::Error),
+}
+
+/// Shows it until a signal ends the process.
+pub(super) fn run(arguments: &Arguments) -> ExitCode {
+    match show(arguments) {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            eprintln!("trench view: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn show(arguments: &Arguments) -> Result<u8, ViewError> {
+    let setup = setup(arguments)?;
+    let asked = SocketAddr::new(arguments.bind, arguments.port);
+    let listener = TcpListener::bind(asked).map_err(|source| ViewError::Bind { address: asked, source })?;
+    let address = listener.local_addr()?;
+    let guard = Guard::new(address, &arguments.allow_host);
+    let Some(path) = &arguments.bag else {
+        let hub = Arc::new(Hub::new(setup));
+        announce(address);
+        let served = Arc::clone(&hub);
+        let server = std::thread::Builder::new().name("page".to_owned());
+        server.spawn(move || {
+            if let Err(error) = serve(listener, guard, Picture::Live(served)) {
+                eprintln!("trench view: the server failed: {error}");
+            }
+        })?;
+        return Ok(node::run(hub, &arguments.robots, arguments.ground_truth, &arguments.node_arguments));
+    };
+    let bag = BagReader::open(path)?;
+    for damage in bag.damage() {
+        eprintln!("trench view: {damage}");
+    }
+    let load = |source| ViewError::Load { path: path.clone(), source };
+    let recording = Arc::new(Recording::load(&bag).map_err(load)?);
+    announce(address);
+    serve(listener, guard, Picture::Bag { recording, setup })?;
+    Ok(0)
+}
+
+fn announce(address: SocketAddr) {
+    if !address.ip().is_loopback() {
+        eprintln!("trench view: everyone who reaches {address} sees the picture");
+    }
+    say(format_args!("http://{address}/\n"));
+}
+
+/// What the page must know beforehand, as JSON.
+fn setup(arguments: &Arguments) -> Result<String, ViewError> {
+    let field = &arguments.field;
+    let is_area = field.iter().all(|number| number.is_finite()) && field.len() == 4;
+    if !is_area || field[0] == field[2] || field[1] == field[3] {
+        return Err(ViewError::Number("field"));
+    }
+    if !arguments.zones.iter().all(|radius| radius.is_finite() && *radius > 0.0) {
+        return Err(ViewError::Number("zones"));
+    }
+    let name = arguments.bag.as_ref().map(|path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
+    Ok(serde_json::json!({
+        "mode": if arguments.bag.is_some() { "bag" } else { "live" },
+        "name": name,
+        "field": [field[0].min(field[2]), field[1].min(field[3]), field[0].max(field[2]), field[1].max(field[3])],
+        "zones": arguments.zones,
+        "colours": super::plot::colours(),
+    })
+    .to_string())
+}
