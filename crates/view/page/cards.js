@@ -31,7 +31,9 @@ export function drawCards() {
   card.select(".tags").selectAll("span").data(tags, (tag) => tag.text).join("span").attr("class", (tag) => `tag ${tag.kind}`).text((tag) => tag.text);
   card.each(function (robot) {
     const law = picture.control[robot.name];
-    const values = [length(law?.goal_distance), speed(robot.v), energy(law?.value)];
+    const monitor = picture.stability[robot.name];
+    const values = [length(law?.goal_distance), speed(robot.v), energy(monitor?.value ?? law?.value)];
+    this.title = monitor ? monitor.violation || `law ${monitor.law}, ${monitor.equation}: V is within its bound ${energy(monitor.bound)}, to which ${monitor.term} adds most` : "";
     d3.select(this).selectAll("dd").data(values).html((value) => value);
     drawChart(this.querySelector("canvas"), robot.name);
   });
@@ -42,6 +44,7 @@ function tags(robot) {
   const law = picture.control[robot.name];
   const list = [];
   if (STATUS[robot.status]) list.push({ text: STATUS[robot.status], kind: "bad" });
+  if (picture.stability[robot.name]?.holds === false) list.push({ text: "V above bound", kind: "bad" });
   const link = LINK[linkState(robot.name)];
   if (link) list.push({ text: link, kind: "bad" });
   for (const limit of law?.limits ?? []) list.push({ text: limit, kind: ["stale", "deviates"].includes(limit) ? "bad" : "" });
@@ -89,7 +92,7 @@ function drawChart(canvas, robot) {
   context.stroke();
   context.setLineDash([]);
   Object.assign(context, { fillStyle: style.getPropertyValue("--quiet"), font: "10.5px Inter, sans-serif", textAlign: "left" });
-  context.fillText(samples.length ? `V, top ${energy(high)}, ${DECADES} decades` : "", 0, 9);
+  context.fillText(samples.length ? `V${samples.at(-1)[2] === null || samples.at(-1)[2] === undefined ? "" : " and its bound"}, top ${energy(high)}, ${DECADES} decades` : "", 0, 9);
   context.textAlign = "right";
   context.fillText("last 60 s", width, 9);
 }

@@ -4,7 +4,7 @@ const REACH = 60; // s
 const STEP = 0.095; // s, between two samples of the history
 
 export const picture = {
-  setup: null, now: 0, team: { robots: [], stamp: 0 }, run: null, formation: null, places: {}, goals: {}, control: {}, links: {},
+  setup: null, now: 0, team: { robots: [], stamp: 0 }, run: null, formation: null, places: {}, goals: null, control: {}, stability: {}, links: {},
   truth: {}, target: null, obstacles: [], hulls: [], emergency_stop: false, markers: [], body: null, alarms: [], player: null,
   trails: new Map(), values: new Map(), changed: new Set(),
 };
@@ -24,7 +24,9 @@ export function take(news) {
     picture.changed.add(part);
   }
   if (news.team) for (const robot of news.team.robots) keep(picture.trails, robot.name, [picture.now, robot.at]);
-  if (news.control) for (const [robot, law] of Object.entries(news.control)) keep(picture.values, robot, [picture.now, law.value, law.bound ?? null]);
+  // The monitor tells the bound too, where there is one.
+  for (const [robot, one] of Object.entries(news.stability ?? {})) keep(picture.values, robot, [picture.now, one.value, one.bound]);
+  for (const [robot, law] of Object.entries(news.control ?? {})) if (!picture.stability[robot]) keep(picture.values, robot, [picture.now, law.value, null]);
 }
 
 function keep(all, robot, sample) {

@@ -53,7 +53,7 @@ function drawGoals(all, radius) {
 }
 
 function goalOf(name) {
-  const at = picture.goals[name]?.at ?? picture.control[name]?.goal;
+  const at = picture.goals?.by_robot[name]?.at ?? picture.control[name]?.goal;
   return at && at[0] !== null && at[1] !== null ? at : null;
 }
 

@@ -17,17 +17,18 @@ const closed = (points) => `${line(points) ?? ""}Z`;
 export function drawShapes() {
   const { changed } = picture;
   const isNew = (...parts) => changed.has("all") || parts.some((part) => changed.has(part));
-  if (isNew("formation", "target")) drawFormation();
+  if (isNew("formation", "target") || (isNew("goals") && picture.formation?.frame === "target")) drawFormation();
   if (isNew("obstacles")) drawObstacles();
   if (isNew("hulls")) drawHulls();
   if (isNew("markers")) drawMarkers();
 }
 
-// A formation in the target's frame is drawn where the target is.
+// A formation in the target's frame is drawn where that frame is: the goals tell, the target itself before there are any.
 function carried() {
   if (picture.formation?.frame !== "target") return "";
-  if (!picture.target || picture.target.at[0] === null) return null;
-  return `translate(${picture.target.at}) rotate(${(picture.target.theta * 180) / Math.PI})`;
+  const frame = picture.goals ?? picture.target;
+  if (!frame || frame.at[0] === null) return null;
+  return `translate(${frame.at}) rotate(${((frame.theta ?? 0) * 180) / Math.PI})`;
 }
 
 function drawFormation() {

@@ -2,7 +2,7 @@
 
 use crate::{Point, point, short};
 use serde::Serialize;
-use trench_msgs::msg::LeaderState;
+use trench_msgs::msg::{LeaderState, Stability};
 
 /// One controller's tick.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -43,6 +43,35 @@ impl Control {
             value: significant(state.lyapunov),
             rate: significant(state.lyapunov_rate),
             limits: LIMITS.iter().filter(|(bit, _)| state.limited_by & bit != 0).map(|(_, name)| *name).collect(),
+        }
+    }
+}
+
+/// Whether a law's stability argument holds.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(crate) struct Monitor {
+    law: String,
+    equation: String,
+    /// V, and what it may be at most.
+    pub(crate) value: Option<f64>,
+    pub(crate) bound: Option<f64>,
+    /// The input that brings in most.
+    term: String,
+    holds: bool,
+    /// Empty while it holds.
+    violation: String,
+}
+
+impl Monitor {
+    pub(crate) fn of(stability: &Stability) -> Self {
+        Self {
+            law: stability.law.clone(),
+            equation: stability.equation.clone(),
+            value: significant(stability.value),
+            bound: significant(stability.bound),
+            term: stability.term.clone(),
+            holds: stability.holds,
+            violation: stability.violation.clone(),
         }
     }
 }

@@ -73,17 +73,31 @@ pub(crate) struct Goal {
     phase: &'static str,
 }
 
-/// Goal points by robot.
-pub(crate) fn goals(goals: &msg::Goals) -> BTreeMap<String, Goal> {
-    let goal = |goal: &msg::Goal| {
-        let phase = match goal.phase {
-            msg::Goal::PHASE_APPROACH => "approach",
-            msg::Goal::PHASE_MOVING => "moving",
-            _ => "hold",
+/// Goal points, and where the formation's frame is.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(crate) struct Goals {
+    at: Point,
+    theta: Option<f64>,
+    by_robot: BTreeMap<String, Goal>,
+}
+
+impl Goals {
+    pub(crate) fn of(goals: &msg::Goals) -> Self {
+        let goal = |goal: &msg::Goal| {
+            let phase = match goal.phase {
+                msg::Goal::PHASE_APPROACH => "approach",
+                msg::Goal::PHASE_MOVING => "moving",
+                _ => "hold",
+            };
+            (goal.robot.clone(), Goal { at: point(goal.position.x, goal.position.y), phase })
         };
-        (goal.robot.clone(), Goal { at: point(goal.position.x, goal.position.y), phase })
-    };
-    goals.goals.iter().map(goal).collect()
+        let frame = &goals.frame;
+        Self {
+            at: point(frame.position.x, frame.position.y),
+            theta: short(frame.theta),
+            by_robot: goals.goals.iter().map(goal).collect(),
+        }
+    }
 }
 
 /// The state of the run.

@@ -4,7 +4,8 @@ use trench_core::{Qos, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, ObstacleArray, RunState, TeamState,
+    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, ObstacleArray, RunState, Stability,
+    TeamState,
 };
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Bool;
@@ -39,6 +40,8 @@ pub enum Role {
     Contacts,
     /// `<r>/leader_state`: how its law is doing.
     Leader(String),
+    /// `<r>/stability`: whether the law's stability argument holds.
+    Stability(String),
     /// `<r>/link`.
     Link(String),
     /// `/ground_truth/<r>/odom`.
@@ -81,6 +84,7 @@ impl Role {
         of_a_robot("/ground_truth/", "/odom", Odometry::TYPE)
             .map(Self::Truth)
             .or_else(|| of_a_robot("/", "/leader_state", LeaderState::TYPE).map(Self::Leader))
+            .or_else(|| of_a_robot("/", "/stability", Stability::TYPE).map(Self::Stability))
             .or_else(|| of_a_robot("/", "/link", LinkStatus::TYPE).map(Self::Link))
     }
 
@@ -91,7 +95,7 @@ impl Role {
 
     /// Whether the history keeps something of its messages.
     pub(crate) fn has_history(&self) -> bool {
-        matches!(self, Self::Team | Self::Leader(_))
+        matches!(self, Self::Team | Self::Leader(_) | Self::Stability(_))
     }
 }
 
@@ -103,6 +107,8 @@ pub fn subscriptions(robots: &[String], with_truth: bool) -> Vec<(Role, Subscrib
     for robot in robots {
         let leader = Subscribe::to::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE);
         all.push((Role::Leader(robot.clone()), leader));
+        let stability = Subscribe::to::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE);
+        all.push((Role::Stability(robot.clone()), stability));
         let link = Subscribe::to::<LinkStatus>(format!("/{robot}/link"), Qos::RELIABLE);
         all.push((Role::Link(robot.clone()), link));
         if with_truth {
@@ -123,7 +129,7 @@ mod tests {
     #[test]
     fn what_is_subscribed_is_known_by_its_name_in_a_bag() {
         let all = subscriptions(&["robot1".to_owned(), "left/2".to_owned()], true);
-        assert_eq!(all.len(), SHARED.len() + 2 * 3 + 1);
+        assert_eq!(all.len(), SHARED.len() + 2 * 4 + 1);
         for (role, subscribe) in all {
             assert_eq!(Role::of(&subscribe.topic, subscribe.type_info.name), Some(role), "{}", subscribe.topic);
             assert_eq!(Role::of(&subscribe.topic, "std_msgs/msg/String"), None, "{}", subscribe.topic);

@@ -1,8 +1,8 @@
 //! The state of the picture, message by message.
 
 use crate::alarms::Alarms;
-use crate::control::Control;
-use crate::formation::{Formation, Goal, Place, Run, goals, places};
+use crate::control::{Control, Monitor};
+use crate::formation::{Formation, Goals, Place, Run, places};
 use crate::history::History;
 use crate::markers::Markers;
 use crate::obstacles::Outline;
@@ -15,7 +15,7 @@ use trench_core::RosTime;
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::{ApparentObstacleArray, LeaderState, LinkStatus, ObstacleArray, RunState, TeamState};
+use trench_msgs::msg::{ApparentObstacleArray, LeaderState, LinkStatus, ObstacleArray, RunState, Stability, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Bool;
 use trench_msgs::visualization_msgs::MarkerArray;
@@ -28,8 +28,9 @@ pub struct View {
     run: Run,
     formation: Option<Formation>,
     places: BTreeMap<String, Place>,
-    goals: BTreeMap<String, Goal>,
+    goals: Goals,
     control: BTreeMap<String, Control>,
+    stability: BTreeMap<String, Monitor>,
     links: BTreeMap<String, Link>,
     truth: BTreeMap<String, Posed>,
     target: Option<Posed>,
@@ -80,7 +81,7 @@ impl View {
                 "team"
             }
             Role::Goals => {
-                self.goals = goals(&Message::decode(cdr)?);
+                self.goals = Goals::of(&Message::decode(cdr)?);
                 "goals"
             }
             Role::Formation => {
@@ -134,9 +135,18 @@ impl View {
             }
             Role::Leader(robot) => {
                 let control = Control::of(&LeaderState::decode(cdr)?);
-                self.history.valued(robot, seconds(now), control.value, None);
+                // The monitor tells the bound too, where there is one.
+                if !self.stability.contains_key(robot) {
+                    self.history.valued(robot, seconds(now), control.value, None);
+                }
                 self.control.insert(robot.clone(), control);
                 "control"
+            }
+            Role::Stability(robot) => {
+                let monitor = Monitor::of(&Stability::decode(cdr)?);
+                self.history.valued(robot, seconds(now), monitor.value, monitor.bound);
+                self.stability.insert(robot.clone(), monitor);
+                "stability"
             }
             Role::Link(robot) => {
                 self.links.insert(robot.clone(), Link::of(&LinkStatus::decode(cdr)?));
@@ -194,6 +204,7 @@ impl View {
             "body" => text(&self.markers.body),
             "alarms" => text(&self.alarms.list(self.now)),
             "control" => text(&self.control),
+            "stability" => text(&self.stability),
             "links" => text(&self.links),
             "truth" => text(&self.truth),
             _ => text(&self.undecodable),
