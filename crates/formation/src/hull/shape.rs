@@ -42,12 +42,6 @@ impl Shape {
         Ok(Self { points, radius })
     }
 
-    /// The same shape elsewhere: moved by `offset` (m), which must be finite.
-    #[must_use]
-    pub fn moved(&self, offset: Vector2<f64>) -> Self {
-        Self { points: self.points.iter().map(|point| point + offset).collect(), radius: self.radius }
-    }
-
     /// Hull of several shapes, which must not be empty. It is grown by the least of their radii; rounder corners become
     /// circumscribed polygons, so that the hull contains the exact one and exceeds it by less than 0.5 % of the
     /// difference of the radii.

@@ -45,10 +45,10 @@ impl Known {
         }
     }
 
-    /// The same obstacle `seconds` later.
+    /// The same obstacle `seconds` later; where it is, if it would be at no place that numbers can say.
     pub(crate) fn moved(&self, seconds: f64) -> Self {
         let by = self.velocity * seconds;
-        let shape = if by == Vector2::zeros() { self.shape.clone() } else { self.shape.moved(by) };
-        Self { shape, ..*self }
+        let shape = if by == Vector2::zeros() { None } else { self.shape.moved(by).ok() };
+        Self { shape: shape.unwrap_or_else(|| self.shape.clone()), ..*self }
     }
 }
