@@ -43,6 +43,18 @@ fn eight_robots_cross_a_large_field_below_one_camera() {
 }
 
 #[test]
+fn four_cameras_with_one_map_hand_robots_over() {
+    let finished = cross(60.0, &[("camera", "overhead_four"), ("render", "false")]);
+    assert_eq!(finished.ending, Ending::Exit { node: "/operator".to_owned(), code: 0 });
+    check_nobody_touched_or_got_lost(&finished);
+}
+
+#[test]
+fn robots_are_found_in_frames_of_four_cameras() {
+    check_nobody_touched_or_got_lost(&cross(6.0, &[("camera", "overhead_four"), ("render", "true")]));
+}
+
+#[test]
 fn robots_are_found_in_frames_of_the_large_camera() {
     check_nobody_touched_or_got_lost(&cross(6.0, &[("camera", "overhead_large"), ("render", "true")]));
 }

@@ -1,4 +1,4 @@
-//! The overhead camera as geometry: pinhole, plumb-bob distortion, pads at a height, camera_info files.
+//! The overhead camera as geometry: pinhole, plumb-bob distortion, several cameras over one map, pads at a height, camera_info files.
 //!
 //! # Frames
 //!
@@ -17,6 +17,7 @@ mod distortion;
 mod lens;
 mod mount;
 mod mount_file;
+mod overhead;
 mod pad;
 mod ray_table;
 
@@ -25,5 +26,6 @@ pub use camera_info::CameraInfo;
 pub use distortion::PlumbBob;
 pub use lens::{Lens, LensError, Pixel};
 pub use mount::{Mount, MountError};
+pub use overhead::Overhead;
 pub use pad::{Pad, Pose2};
 pub use ray_table::RayTable;

@@ -1,6 +1,7 @@
 //! The localizer as a state machine: frames in, the team's state out.
 
-use crate::intake::Intake;
+use crate::gather::{Gather, Look};
+use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
 use crate::report::{PERIOD, Report};
 use crate::settings::{Settings, descriptors};
@@ -10,7 +11,7 @@ use crate::{markers, messages};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Durability, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos,
-    Reliability, Serve, Sink, Source, StartError, Steady, Times, resolve_name,
+    Reliability, RosTime, Serve, Sink, Source, StartError, Steady, Times, resolve_name,
 };
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
@@ -46,14 +47,17 @@ pub fn description() -> NodeDescription {
 pub struct OverheadLocalizer {
     interface: Interface,
     settings: Settings,
-    intake: Intake,
+    /// One a camera.
+    intakes: Vec<Intake>,
+    /// Of several cameras.
+    gather: Option<Gather>,
     tracker: Tracker,
     stream: Stream,
     memory: Memory,
     report: Report,
     next_look: Option<Steady>,
     last_picture: Option<Steady>,
-    discs: Vec<MapDisc>,
+    sightings: Vec<Sighting>,
 }
 
 impl OverheadLocalizer {
@@ -63,39 +67,68 @@ impl OverheadLocalizer {
     /// When parameters or the files they name are wrong.
     pub fn new(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Self, StartError> {
         let settings = Settings::load(parameters, files)?;
-        let intake = Intake::new(&settings, parameters)?;
+        let intakes = intakes(&settings, parameters)?;
+        let several = (settings.cameras.len() > 1).then_some(settings.cameras.len());
         let tracker = Tracker::new(settings.team.clone(), settings.noise_seed);
         let name = resolve_name(&context.name, &context.namespace, &context.name);
         Ok(Self {
             interface: interface(&settings, &tracker),
-            intake,
+            intakes,
+            gather: several.map(|cameras| Gather::new(cameras, settings.together)),
             tracker,
             stream: Stream::default(),
             memory: Memory::new(context.checkpoint.as_deref()),
             report: Report::new(Health::new(name), DIAGNOSTICS),
             next_look: None,
             last_picture: None,
-            discs: Vec::new(),
+            sightings: Vec::new(),
             settings,
         })
     }
 
-    fn message(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
-        let Self { intake, stream, discs, .. } = self;
-        match intake.take(cdr, |stamp| stream.take(source, stamp), discs) {
-            Ok(Some((stamp, interval))) => {
-                if let Some((last, age)) = self.memory.recall(stamp) {
-                    self.tracker.recall(&last, age);
-                }
-                let pads = self.tracker.step(interval, &self.discs);
-                self.publish(stamp, source.sequence, sink);
-                self.report.frame(at, self.tracker.tracks(), pads, &self.stream, sink);
-                self.memory.keep(at, stamp, self.tracker.tracks(), sink);
-                self.show(at, stamp, sink);
+    fn message(&mut self, at: Times, camera: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        let Self { intakes, stream, gather, sightings, .. } = self;
+        let Some(intake) = intakes.get_mut(camera) else { return };
+        let taken = match gather {
+            None => intake.take(cdr, |stamp| stream.take(source, stamp), sightings),
+            Some(gather) => intake.take(cdr, |stamp| gather.wants(camera, stamp).then_some(0.0), sightings),
+        };
+        match (taken, gather) {
+            (Ok(Some((stamp, interval))), None) => {
+                let discs: Vec<MapDisc> = sightings.iter().map(|sighting| sighting.disc).collect();
+                self.step(at, stamp, interval, source.sequence, &discs, sink);
             }
-            Ok(None) => {}
-            Err(reason) => self.report.reject(reason, sink),
+            (Ok(Some((stamp, _))), Some(gather)) => {
+                for look in gather.take(at.steady, camera, stamp, sightings) {
+                    self.look(at, &look, sink);
+                }
+            }
+            (Ok(None), None) => {}
+            (Ok(None), Some(_)) => stream.stale += 1,
+            (Err(reason), _) => self.report.reject(reason, sink),
         }
+    }
+
+    /// A look of several cameras; its frames are counted by exposure.
+    fn look(&mut self, at: Times, look: &Look, sink: &mut dyn Sink) {
+        let source = Source { sequence: look.number, ..Source::default() };
+        if let Some(interval) = self.stream.take(source, RosTime::from(&look.stamp)) {
+            self.step(at, look.stamp, interval, look.number, &look.discs, sink);
+        }
+        if let Some(gather) = &self.gather {
+            self.report.cameras(gather.missing);
+        }
+    }
+
+    fn step(&mut self, at: Times, stamp: Time, interval: f64, number: u64, discs: &[MapDisc], sink: &mut dyn Sink) {
+        if let Some((last, age)) = self.memory.recall(stamp) {
+            self.tracker.recall(&last, age);
+        }
+        let pads = self.tracker.step(interval, discs);
+        self.publish(stamp, number, sink);
+        self.report.frame(at, self.tracker.tracks(), pads, &self.stream, sink);
+        self.memory.keep(at, stamp, self.tracker.tracks(), sink);
+        self.show(at, stamp, sink);
     }
 
     /// Pictures for viewers.
@@ -128,32 +161,42 @@ impl NodeCore for OverheadLocalizer {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Message { source, cdr, .. } => self.message(at, source, cdr, sink),
+            Event::Message { port, source, cdr } => self.message(at, port, source, cdr, sink),
             Event::Request { service, id, .. } => {
                 self.tracker.reset();
                 let message = "identities are found anew, from the start poses or by order".to_owned();
                 sink.respond(service, id, &TriggerResponse { success: true, message });
             }
             Event::Started | Event::Wakeup => {
-                self.report.publish(at, self.tracker.tracks(), &self.stream, sink);
-                self.next_look = Some(at.steady.plus_seconds(PERIOD));
+                if let Some(look) = self.gather.as_mut().and_then(|gather| gather.overdue(at.steady)) {
+                    self.look(at, &look, sink);
+                }
+                if self.next_look.is_none_or(|next| next <= at.steady) {
+                    self.report.publish(at, self.tracker.tracks(), &self.stream, sink);
+                    self.next_look = Some(at.steady.plus_seconds(PERIOD));
+                }
             }
             _ => {}
         }
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        self.next_look
+        let deadline = self.gather.as_ref().and_then(Gather::deadline);
+        self.next_look.into_iter().chain(deadline).min()
     }
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
         let mut settings = self.settings.clone();
         settings.tune(parameters)?;
-        self.intake = Intake::new(&settings, parameters)?;
+        self.intakes = intakes(&settings, parameters)?;
         self.tracker.tune(settings.team.clone());
         self.settings = settings;
         Ok(())
     }
+}
+
+fn intakes(settings: &Settings, parameters: &Parameters) -> Result<Vec<Intake>, ConfigError> {
+    settings.cameras.iter().map(|view| Intake::new(settings, view, parameters)).collect()
 }
 
 fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
@@ -172,7 +215,7 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     publications.extend(
         tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, Local::NetworkOnly)),
     );
-    let subscriptions = vec![Intake::subscription(settings.input)];
+    let subscriptions = settings.cameras.iter().map(|view| Intake::subscription(settings.input, view)).collect();
     let services = vec![Serve { name: "~/reset".to_owned(), service: service_info::<Trigger>() }];
     Interface { subscriptions, publications, services, ..Interface::default() }
 }

@@ -10,15 +10,25 @@ use trench_msgs::msg::{Disc as DiscMessage, DiscArray};
 use trench_msgs::sensor_msgs::{CompressedImage, Image, ImageView};
 use trench_msgs::std_msgs::HeaderView;
 use trench_msgs::{Message, TypeInfo};
-use trench_optics::{Camera, Pixel};
+use trench_optics::{Camera, Overhead, Pixel};
 
 /// More discs than any detector finds pads for: such a message is broken.
 const MOST_DISCS: usize = 1024;
+
+/// A disc, and how far inside its camera's picture it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sighting {
+    pub(crate) disc: MapDisc,
+    /// From its edge to the picture's, pixels; not below 1.
+    pub(crate) inside: f64,
+}
 
 /// Reads messages of the kind that the settings ask for.
 pub(crate) struct Intake {
     camera: Camera,
     pad_height: f64,
+    /// Of a disc in the picture, pixels.
+    radius: f64,
     input: Input,
     detector: Detector,
     /// Pixels of frames that cannot be read in place.
@@ -29,27 +39,27 @@ pub(crate) struct Intake {
 impl Intake {
     /// # Errors
     /// When the camera could not see any pad.
-    pub(crate) fn new(settings: &Settings, parameters: &Parameters) -> Result<Self, ConfigError> {
-        let (camera, pad) = (settings.camera.clone(), &settings.team.pad);
+    pub(crate) fn new(settings: &Settings, view: &Overhead, parameters: &Parameters) -> Result<Self, ConfigError> {
+        let (camera, pad) = (view.camera.clone(), &settings.team.pad);
         let expectation = Expectation::new(&camera, pad).ok_or_else(|| {
             parameters.error("mount_file", "the camera does not see a pad below it", "measure it again")
         })?;
         let detector = Detector::new(&settings.colours, expectation);
-        let (pad_height, input) = (pad.height, settings.input);
-        Ok(Self { camera, pad_height, input, detector, room: Vec::new(), found: Vec::new() })
+        let (pad_height, input, radius) = (pad.height, settings.input, 0.5 * expectation.width);
+        Ok(Self { camera, pad_height, radius, input, detector, room: Vec::new(), found: Vec::new() })
     }
 
     /// What it reads.
-    pub(crate) fn subscription(input: Input) -> Subscribe {
+    pub(crate) fn subscription(input: Input, view: &Overhead) -> Subscribe {
         let read = |topic: &str, type_info: &'static TypeInfo| Subscribe {
-            topic: topic.to_owned(),
+            topic: view.topic(topic),
             type_info,
             qos: Qos::SENSOR,
         };
         match input {
-            Input::Image => read("/overhead/image_raw", Image::TYPE),
-            Input::Compressed => read("/overhead/image_raw/compressed", CompressedImage::TYPE),
-            Input::Detections => read("/overhead/detections", DiscArray::TYPE),
+            Input::Image => read("image_raw", Image::TYPE),
+            Input::Compressed => read("image_raw/compressed", CompressedImage::TYPE),
+            Input::Detections => read("detections", DiscArray::TYPE),
         }
     }
 
@@ -61,7 +71,7 @@ impl Intake {
         &mut self,
         cdr: &[u8],
         is_new: impl FnOnce(RosTime) -> Option<f64>,
-        discs: &mut Vec<MapDisc>,
+        discs: &mut Vec<Sighting>,
     ) -> Result<Option<(Time, f64)>, String> {
         match self.input {
             Input::Image => {
@@ -96,17 +106,24 @@ impl Intake {
         &mut self,
         image: &ImageView<'_>,
         is_new: impl FnOnce(RosTime) -> Option<f64>,
-        discs: &mut Vec<MapDisc>,
+        discs: &mut Vec<Sighting>,
     ) -> Result<Option<(Time, f64)>, String> {
         let (size, stamp) = ([image.width as usize, image.height as usize], image.header.stamp);
         let frame = Frame::new(self.size(), image.encoding, size, image.step as usize, image.data, &mut self.room)
             .map_err(|error| error.to_string())?;
         let Some(interval) = is_new(RosTime::from(&stamp)) else { return Ok(None) };
         self.detector.detect(frame, &mut self.found);
-        let seen = |disc: &Disc| MapDisc::seen(&self.camera, self.pad_height, disc.colour, disc.centre);
         discs.clear();
-        discs.extend(self.found.iter().filter_map(seen));
+        discs.extend(self.found.iter().filter_map(|disc| self.sighting(disc.colour, disc.centre)));
         Ok(Some((stamp, interval)))
+    }
+
+    fn sighting(&self, colour: Colour, centre: Pixel) -> Option<Sighting> {
+        let disc = MapDisc::seen(&self.camera, self.pad_height, colour, centre)?;
+        let [width, height] = self.size().map(|size| size as f64 - 1.0);
+        let Pixel { u, v } = centre;
+        let inside = u.min(v).min(width - u).min(height - v) - self.radius;
+        Some(Sighting { disc, inside: inside.max(1.0) })
     }
 
     /// Takes the discs that another detector found.
@@ -114,7 +131,7 @@ impl Intake {
         &self,
         cdr: &[u8],
         is_new: impl FnOnce(RosTime) -> Option<f64>,
-        discs: &mut Vec<MapDisc>,
+        discs: &mut Vec<Sighting>,
     ) -> Result<Option<(Time, f64)>, String> {
         let message = DiscArray::decode(cdr).map_err(|error| error.to_string())?;
         if message.discs.len() > MOST_DISCS {
@@ -130,7 +147,7 @@ impl Intake {
             if !(u.is_finite() && v.is_finite()) {
                 return Err("a disc's place is not finite".to_owned());
             }
-            discs.extend(MapDisc::seen(&self.camera, self.pad_height, colour, Pixel { u, v }));
+            discs.extend(self.sighting(colour, Pixel { u, v }));
         }
         Ok(is_new(RosTime::from(&message.header.stamp)).map(|interval| (message.header.stamp, interval)))
     }

@@ -9,6 +9,7 @@
 //! Architecture invariant: pixels appear only here and in the renderer; everything published is in the map.
 
 mod core;
+mod gather;
 mod intake;
 mod markers;
 mod memory;

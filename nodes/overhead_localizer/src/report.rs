@@ -53,6 +53,11 @@ impl Report {
         *self.rejected.entry(reason).or_default() += 1;
     }
 
+    /// Of several cameras: how many frames did not come in time.
+    pub(crate) fn cameras(&mut self, missing: u64) {
+        self.health.value("camera", "frames not in time", missing);
+    }
+
     /// Tells of every robot that was lost, found or became doubtful in this frame.
     pub(crate) fn frame(&mut self, at: Times, tracks: &[Track], pads: usize, stream: &Stream, sink: &mut dyn Sink) {
         self.last_frame = Some(at.steady);

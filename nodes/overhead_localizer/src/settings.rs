@@ -4,7 +4,7 @@ use crate::track::{self, Motion, Robot};
 use crate::vision::ColourLimits;
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
-use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
+use trench_optics::{Overhead, Pad, Pose2};
 
 /// What the discs come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +23,9 @@ const DETECTED_SIGMA: f64 = 6e-5;
 /// What the localizer is told once.
 #[derive(Debug, Clone)]
 pub(crate) struct Settings {
-    pub(crate) camera: Camera,
+    pub(crate) cameras: Vec<Overhead>,
+    /// Frames whose stamps differ by less are of one exposure, s.
+    pub(crate) together: f64,
     pub(crate) input: Input,
     pub(crate) noise_seed: u64,
     pub(crate) team: track::Settings,
@@ -40,8 +42,11 @@ pub(crate) fn descriptors() -> Vec<P> {
             "m, m, rad: x, y, theta of each robot at the start, in the order of `robots`; empty: names go by x",
         )
         .read_only(),
-        P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras)").read_only(),
-        P::string("mount_file", "", "where the camera hangs (config/cameras)").read_only(),
+        P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras); {camera} in it stands for the name of one of several").read_only(),
+        P::string("mount_file", "", "where the camera hangs, or where several do (config/cameras)").read_only(),
+        P::double("cameras.together", 0.002, "s, frames of several cameras whose stamps differ by less are one exposure")
+            .range(0.0, 0.1)
+            .read_only(),
         P::string(
             "input",
             "image",
@@ -92,12 +97,17 @@ impl Settings {
             }
             Ok((path.to_owned(), files.read(key, path)?))
         };
-        let (lens_file, lens) = text("camera_info_file")?;
-        let (mount_file, mount) = text("mount_file")?;
-        let lens = CameraInfo::parse(&lens_file, &lens)?.lens;
-        let mount = Mount::parse(&mount_file, &mount)?;
-        let camera = Camera::new(lens, mount)
-            .map_err(|error| parameters.error("camera_info_file", error.to_string(), "calibrate the camera again"))?;
+        let (mount_file, mounts) = text("mount_file")?;
+        let lens_file = parameters.str("camera_info_file")?;
+        if lens_file.is_empty() {
+            return Err(parameters.error(
+                "camera_info_file",
+                "is missing",
+                "name a file, for example one of config/cameras",
+            ));
+        }
+        let read = |path: &str| files.read("camera_info_file", path);
+        let cameras = Overhead::all(lens_file, (&mount_file, &mounts), read)?;
 
         let pad = Pad {
             disc_diameter: parameters.f64("pad.disc_diameter")?,
@@ -105,8 +115,9 @@ impl Settings {
             height: parameters.f64("pad.height")?,
             body_diameter: parameters.f64("body.diameter")?,
         };
-        if pad.height >= mount.height {
-            return Err(parameters.error("pad.height", "is above the camera", format!("below {} m", mount.height)));
+        let lowest = cameras.iter().map(|view| view.camera.mount().height).fold(f64::INFINITY, f64::min);
+        if pad.height >= lowest {
+            return Err(parameters.error("pad.height", "is above the camera", format!("below {lowest} m")));
         }
         let input = match parameters.str("input")? {
             "image" => Input::Image,
@@ -115,7 +126,8 @@ impl Settings {
             _ => return Err(parameters.error("input", "is not an input", "write image, compressed or detections")),
         };
         let mut settings = Self {
-            camera,
+            cameras,
+            together: parameters.f64("cameras.together")?,
             input,
             noise_seed: parameters.usize("added_noise.seed")? as u64,
             team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },

@@ -2,7 +2,7 @@
 
 use crate::detections::discs;
 use crate::interface::{Ports, image, pixel_bytes};
-use crate::messages::{self, CAMERA_FRAME, header};
+use crate::messages::{self, header};
 use crate::settings::Settings;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
@@ -10,8 +10,8 @@ use trench_core::{
 };
 use trench_msgs::msg::DiscArray;
 use trench_msgs::rosgraph_msgs::Clock;
-use trench_optics::Pose2;
-use trench_sim::camera::{Renderer, Scene};
+use trench_optics::{Overhead, Pose2};
+use trench_sim::camera::{Appearance, Renderer, Scene};
 use trench_sim::{Bed, Frame, Output, Random, Scan};
 
 /// The one byte stream of the test bed.
@@ -27,7 +27,8 @@ pub struct Testbed {
     settings: Settings,
     /// The world, from the node's start on.
     bed: Option<Bed>,
-    renderer: Option<Renderer>,
+    /// One a camera; none if nothing is rendered.
+    renderers: Vec<Renderer>,
     random: Random,
     published: u64,
     dropped: u64,
@@ -38,13 +39,18 @@ pub struct Testbed {
 
 impl Testbed {
     pub(crate) fn new(context: &NodeContext, settings: Settings, interface: Interface, ports: Ports) -> Self {
-        let renderer =
-            settings.render.then(|| Renderer::new(settings.camera.clone(), settings.pad, settings.appearance));
+        // Each camera has noise of its own.
+        let seeds = (settings.appearance.seed..).step_by(1 << 32);
+        let renderer = |(view, seed): (&Overhead, u64)| {
+            Renderer::new(view.camera.clone(), settings.pad, Appearance { seed, ..settings.appearance })
+        };
+        let rendered = if settings.render { &settings.cameras[..] } else { &[] };
+        let renderers = rendered.iter().zip(seeds).map(renderer).collect();
         Self {
             interface,
             ports,
             random: Random::new(settings.bed.seed, 2),
-            renderer,
+            renderers,
             bed: None,
             published: 0,
             dropped: 0,
@@ -110,11 +116,15 @@ impl Testbed {
             return;
         }
         self.published += 1;
-        match &self.renderer {
-            Some(renderer) => self.render(renderer, stamp, frame, sink),
-            None => self.detect(stamp, frame, sink),
+        for camera in 0..self.settings.cameras.len() {
+            match self.renderers.get(camera) {
+                Some(renderer) => self.render(camera, renderer, stamp, frame, sink),
+                None => self.detect(camera, stamp, frame, sink),
+            }
+            let view = &self.settings.cameras[camera];
+            let info = messages::camera_info(stamp, &view.frame_id(), view.camera.lens());
+            sink.publish(self.ports.cameras[camera].info, &info);
         }
-        sink.publish(self.ports.camera_info, &messages::camera_info(stamp, self.settings.camera.lens()));
         if let Some(port) = self.ports.obstacles {
             sink.publish(port, &messages::obstacles(stamp, &frame.obstacles));
         }
@@ -125,12 +135,12 @@ impl Testbed {
     }
 
     /// Paints the frame into the transport's own memory.
-    fn render(&self, renderer: &Renderer, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
-        let lens = self.settings.camera.lens();
-        let (view, pixels) = (image(lens, stamp), pixel_bytes(lens));
+    fn render(&self, camera: usize, renderer: &Renderer, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
+        let (lens, frame_id) = (renderer.camera().lens(), self.settings.cameras[camera].frame_id());
+        let (view, pixels) = (image(lens, &frame_id, stamp), pixel_bytes(lens));
         let obstacles: Vec<_> = frame.obstacles.iter().map(|obstacle| obstacle.outline().clone()).collect();
         let scene = Scene { robots: &frame.exposure, obstacles: &obstacles };
-        sink.publish_with(self.ports.frames, view.encoded_len_with(pixels), &mut |out| {
+        sink.publish_with(self.ports.cameras[camera].frames, view.encoded_len_with(pixels), &mut |out| {
             let Some(range) = view.encode_around(pixels, out) else { return 0 };
             let end = range.end;
             match renderer.render(scene, frame.number, &mut out[range]) {
@@ -140,11 +150,13 @@ impl Testbed {
         });
     }
 
-    fn detect(&mut self, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
-        let Settings { camera, pad, detection_noise, .. } = &self.settings;
+    fn detect(&mut self, camera: usize, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
+        let Settings { cameras, pad, detection_noise, .. } = &self.settings;
+        let view = &cameras[camera];
         let poses: Vec<Pose2> = frame.truth.iter().map(|truth| truth.pose).collect();
-        let discs = discs(camera, pad, &poses, *detection_noise, &mut self.random);
-        sink.publish(self.ports.frames, &DiscArray { header: header(stamp, CAMERA_FRAME), discs });
+        let discs = discs(&view.camera, pad, &poses, *detection_noise, &mut self.random);
+        let header = header(stamp, &view.frame_id());
+        sink.publish(self.ports.cameras[camera].frames, &DiscArray { header, discs });
     }
 
     fn diagnose(&mut self) {

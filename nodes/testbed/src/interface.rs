@@ -1,7 +1,6 @@
 //! How the test bed is made and what it is connected to.
 
 use crate::core::Testbed;
-use crate::messages::CAMERA_FRAME;
 use crate::settings::{Settings, descriptors};
 use trench_config::Parameters;
 use trench_core::{
@@ -14,22 +13,29 @@ use trench_msgs::rosgraph_msgs::Clock;
 use trench_msgs::sensor_msgs::{CameraInfo, Image, ImageView, LaserScan};
 use trench_msgs::std_msgs::HeaderView;
 use trench_msgs::{Message, TypeInfo};
-use trench_optics::Lens;
+use trench_optics::{Lens, Overhead};
 
 /// Where each publication is.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Ports {
     pub(crate) diagnostics: usize,
     pub(crate) contacts: usize,
-    pub(crate) camera_info: usize,
-    /// Images, or detections.
-    pub(crate) frames: usize,
+    /// Of each camera.
+    pub(crate) cameras: Vec<CameraPorts>,
     pub(crate) obstacles: Option<usize>,
     pub(crate) clock: Option<usize>,
     /// The first robot's; the others follow.
     pub(crate) truth: usize,
     /// The first laser's; the others follow.
     pub(crate) scans: usize,
+}
+
+/// Where a camera's publications are.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CameraPorts {
+    pub(crate) info: usize,
+    /// Images, or detections.
+    pub(crate) frames: usize,
 }
 
 /// The node as processes and the simulator make it.
@@ -50,9 +56,9 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
 }
 
 /// The image of a lens, without its pixels.
-pub(crate) fn image(lens: &Lens, stamp: trench_core::RosTime) -> ImageView<'static> {
+pub(crate) fn image<'a>(lens: &Lens, frame_id: &'a str, stamp: trench_core::RosTime) -> ImageView<'a> {
     ImageView {
-        header: HeaderView { stamp: stamp.into(), frame_id: CAMERA_FRAME },
+        header: HeaderView { stamp: stamp.into(), frame_id },
         height: lens.height,
         width: lens.width,
         encoding: "rgb8",
@@ -74,17 +80,22 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         publications.len() - 1
     };
     let network = Local::NetworkOnly;
-    let lens = settings.camera.lens();
     let diagnostics = advertise("/diagnostics", DiagnosticArray::TYPE, Qos::RELIABLE, network);
     let contacts = advertise("/ground_truth/contacts", DiagnosticArray::TYPE, Qos::RELIABLE, network);
-    let camera_info = advertise("/overhead/camera_info", CameraInfo::TYPE, Qos::RELIABLE, network);
-    let frames = if settings.render {
-        let max_len = image(lens, trench_core::RosTime(0)).encoded_len_with(pixel_bytes(lens));
-        advertise("/overhead/image_raw", Image::TYPE, Qos::SENSOR, Local::SharedMemoryOnly { max_len })
-    } else {
-        let local = Local::SharedMemory { max_len: 16 * 1024 };
-        advertise("/overhead/detections", DiscArray::TYPE, Qos::RELIABLE, local)
+    let camera = |view: &Overhead| {
+        let (lens, frame_id) = (view.camera.lens(), view.frame_id());
+        let info = advertise(&view.topic("camera_info"), CameraInfo::TYPE, Qos::RELIABLE, network);
+        let frames = if settings.render {
+            let max_len = image(lens, &frame_id, trench_core::RosTime(0)).encoded_len_with(pixel_bytes(lens));
+            let local = Local::SharedMemoryOnly { max_len };
+            advertise(&view.topic("image_raw"), Image::TYPE, Qos::SENSOR, local)
+        } else {
+            let local = Local::SharedMemory { max_len: 16 * 1024 };
+            advertise(&view.topic("detections"), DiscArray::TYPE, Qos::RELIABLE, local)
+        };
+        CameraPorts { info, frames }
     };
+    let cameras = settings.cameras.iter().map(camera).collect();
     let obstacles = (settings.publish_obstacles && !settings.bed.obstacles.is_empty())
         .then(|| advertise("/obstacles", ObstacleArray::TYPE, Qos::RELIABLE, network));
     let clock = settings.publish_clock.then(|| advertise("/clock", Clock::TYPE, Qos::RELIABLE, network));
@@ -105,5 +116,5 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         byte_streams: vec![ByteStream::PseudoTerminal { link: settings.link.clone() }],
         ..Interface::default()
     };
-    (interface, Ports { diagnostics, contacts, camera_info, frames, obstacles, clock, truth, scans })
+    (interface, Ports { diagnostics, contacts, cameras, obstacles, clock, truth, scans })
 }

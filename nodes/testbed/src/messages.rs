@@ -10,18 +10,15 @@ use trench_msgs::std_msgs::Header;
 use trench_optics::Lens;
 use trench_sim::{Contact, Laser, Thing, Truth};
 
-/// The frame of the camera's messages.
-pub(crate) const CAMERA_FRAME: &str = "overhead_camera";
-
 pub(crate) fn header(stamp: RosTime, frame_id: &str) -> Header {
     Header { stamp: stamp.into(), frame_id: frame_id.to_owned() }
 }
 
 /// The lens, for an image with this stamp.
-pub(crate) fn camera_info(stamp: RosTime, lens: &Lens) -> CameraInfo {
+pub(crate) fn camera_info(stamp: RosTime, frame_id: &str, lens: &Lens) -> CameraInfo {
     let Lens { width, height, fx, fy, cx, cy, distortion } = *lens;
     CameraInfo {
-        header: header(stamp, CAMERA_FRAME),
+        header: header(stamp, frame_id),
         height,
         width,
         distortion_model: "plumb_bob".to_owned(),

@@ -3,7 +3,7 @@
 use crate::obstacles;
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
-use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
+use trench_optics::{Camera, Overhead, Pad, Pose2};
 use trench_radio::{Key, MAX_ROBOTS};
 use trench_sim::camera::{Appearance, Background};
 use trench_sim::{BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Random, Shutter, scattered};
@@ -14,7 +14,7 @@ pub(crate) struct Settings {
     pub(crate) robots: Vec<String>,
     pub(crate) bed: BedSetup,
     pub(crate) link: String,
-    pub(crate) camera: Camera,
+    pub(crate) cameras: Vec<Overhead>,
     pub(crate) pad: Pad,
     pub(crate) appearance: Appearance,
     pub(crate) render: bool,
@@ -44,8 +44,16 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("camera.rate", 30.0, "frames a second").range(1.0, 100.0),
         P::double("camera.exposure", 0.01, "s").range(0.0, 0.1),
         P::double("camera.delay", 0.035, "s, from the middle of the exposure to the frame").range(0.0, 0.2),
-        P::string("camera.info_file", "", "camera_info YAML of the lens; empty: the nominal lens"),
-        P::string("camera.mount_file", "", "where the camera hangs; empty: above the middle of its view"),
+        P::string(
+            "camera.info_file",
+            "",
+            "camera_info YAML of the lens, {camera} in it stands for a name; empty: nominal",
+        ),
+        P::string(
+            "camera.mount_file",
+            "",
+            "where the camera hangs, or where several do; empty: above the view's middle",
+        ),
         P::bool("render", true, "publish images; false: the discs that a detector would find"),
         P::string("image.background", "plain", "plain, noisy or wood"),
         P::double("image.noise", 4.0, "of 255, standard deviation of each channel of each pixel").range(0.0, 64.0),
@@ -92,7 +100,7 @@ impl Settings {
             robots: parameters.str_list("robots")?.to_vec(),
             bed: bed(parameters, files)?,
             link,
-            camera: camera(parameters, files)?,
+            cameras: cameras(parameters, files)?,
             pad,
             appearance: appearance(parameters)?,
             render: parameters.bool("render")?,
@@ -236,17 +244,16 @@ fn poses(
     Ok(poses.collect())
 }
 
-fn camera(parameters: &Parameters, files: &dyn Files) -> Result<Camera, ConfigError> {
-    let lens = match parameters.str("camera.info_file")? {
-        "" => trench_optics::Lens::nominal(),
-        path => CameraInfo::parse(path, &files.read("camera.info_file", path)?)?.lens,
-    };
-    let mount = match parameters.str("camera.mount_file")? {
-        "" => Mount::nominal(),
-        path => Mount::parse(path, &files.read("camera.mount_file", path)?)?,
-    };
-    Camera::new(lens, mount)
-        .map_err(|error| parameters.error("camera.mount_file", error.to_string(), "measure the camera's place again"))
+fn cameras(parameters: &Parameters, files: &dyn Files) -> Result<Vec<Overhead>, ConfigError> {
+    match [parameters.str("camera.info_file")?, parameters.str("camera.mount_file")?] {
+        ["", ""] => Ok(vec![Overhead { name: None, camera: Camera::nominal() }]),
+        ["", _] => Err(parameters.error("camera.info_file", "is missing", "name the lens of the camera on this mount")),
+        [_, ""] => Err(parameters.error("camera.mount_file", "is missing", "say where the camera of this lens hangs")),
+        [lens, mount] => {
+            let mounts = files.read("camera.mount_file", mount)?;
+            Overhead::all(lens, (mount, &mounts), |path| files.read("camera.info_file", path))
+        }
+    }
 }
 
 fn appearance(parameters: &Parameters) -> Result<Appearance, ConfigError> {
