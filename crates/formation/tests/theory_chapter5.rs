@@ -1,9 +1,9 @@
 //! Chapter 5: trenches, critical damping, and the simulation of 5.6.
-use nalgebra::{SVector, Vector4};
 use proptest::prelude::*;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, GoalMotion, GoalTracking};
+use trench_formation::simulate::{GoalTeam, Integration, WaveGoals};
 use trench_formation::stability::rk4;
 use trench_formation::trench::{
     Conic, ConstantDamping, CriticallyDamped, Damping, Hyperbolic, HyperbolicDamping, Quadratic, Saturated,
@@ -11,37 +11,28 @@ use trench_formation::trench::{
 };
 
 /// Table 5.1: position errors and velocities of r5 and r15.
-const R5: (f64, [f64; 4]) = (5.0, [-1.7826, -1.5746, 0.4660, 0.2426]);
-const R15: (f64, [f64; 4]) = (15.0, [-0.3525, 1.2047, 0.8318, 0.4746]);
+const R5: (usize, [f64; 4]) = (5, [-1.7826, -1.5746, 0.4660, 0.2426]);
+const R15: (usize, [f64; 4]) = (15, [-0.3525, 1.2047, 0.8318, 0.4746]);
 
-/// The goal point of robot `i`: x = 45 - 3i + t (ERRATA: not 45 - i + t), y = sin(x/2).
-fn goal(robot: f64, time: f64) -> GoalMotion {
-    let x = 45.0 - 3.0 * robot + time;
-    let (sin, cos) = libm::sincos(0.5 * x);
-    GoalMotion {
-        position: Vector2::new(x, sin),
-        velocity: Vector2::new(1.0, 0.5 * cos),
-        acceleration: Vector2::new(0.0, -0.25 * sin),
-    }
+/// Goal points at x = 45 - 3i + t (ERRATA: not 45 - i + t), y = sin(x/2).
+const GOALS: WaveGoals =
+    WaveGoals { first: 42.0, spacing: 3.0, speed: 1.0, amplitude: 1.0, wave_number: 0.5, phase: 0.0 };
+
+fn goal(robot: usize, time: f64) -> GoalMotion {
+    GOALS.at(robot - 1, time)
 }
 
 /// Runs 5.6 for one robot and compares its position error every 1.6 s.
-fn check(trench: impl Trench, (robot, [dx, dy, vx, vy]): (f64, [f64; 4]), expected: [f64; 6]) {
+fn check(trench: impl Trench, (robot, [dx, dy, vx, vy]): (usize, [f64; 4]), expected: [f64; 6]) {
     let law = GoalTracking { trench, damping: ConstantDamping { coefficient: 1.0 } };
-    let start = goal(robot, 0.0).position + Vector2::new(dx, dy);
-    let mut state = Vector4::new(start.x, start.y, vx, vy);
-    let step = 0.002;
-    for (tick, wanted) in (0_u32..).zip(expected) {
-        let begin = 1.6 * f64::from(tick);
-        let error = (state.xy() - goal(robot, begin).position).norm();
-        assert!((error - wanted).abs() < 1e-4, "t = {begin}: {error}, not {wanted}");
-        for index in 0..800 {
-            state = rk4(begin + f64::from(index) * step, state, step, |time, s: &SVector<f64, 4>| {
-                let robot_state = PointState { position: s.xy(), velocity: Vector2::new(s.z, s.w) };
-                let acceleration = law.steer(robot_state, goal(robot, time)).acceleration;
-                Vector4::new(s.z, s.w, acceleration.x, acceleration.y)
-            });
-        }
+    let position = goal(robot, 0.0).position + Vector2::new(dx, dy);
+    let start = PointState { position, velocity: Vector2::new(vx, vy) };
+    let mut team = GoalTeam::new(vec![start], Integration::RungeKutta, 0.002);
+    for wanted in expected {
+        let time = team.time();
+        let error = (team.robots()[0].position - goal(robot, time).position).norm();
+        assert!((error - wanted).abs() < 1e-4, "t = {time}: {error}, not {wanted}");
+        (0..800).for_each(|_| team.step(|_, time| goal(robot, time), |robot, goal| law.steer(robot, goal)));
     }
 }
 
@@ -121,11 +112,11 @@ proptest! {
     fn lyapunov_function_of_a_10(dx in -2.0..2.0_f64, dy in -2.0..2.0_f64, vx in -1.0..1.0_f64, vy in -1.0..1.0_f64) {
         prop_assume!(dx.hypot(dy) > 0.01);
         let law = GoalTracking { trench: Hyperbolic { alpha: 3.0, a: 0.5 }, damping: HyperbolicDamping { alpha: 2.0, a: 0.3 } };
-        let start = PointState { position: goal(4.0, 0.0).position + Vector2::new(dx, dy), velocity: Vector2::new(vx, vy) };
-        let now = law.steer(start, goal(4.0, 0.0));
+        let start = PointState { position: goal(4, 0.0).position + Vector2::new(dx, dy), velocity: Vector2::new(vx, vy) };
+        let now = law.steer(start, goal(4, 0.0));
         let step = 1e-5;
         let (after, before) = (start.advanced(now.acceleration, step), start.advanced(now.acceleration, -step));
-        let slope = (law.steer(after, goal(4.0, step)).lyapunov - law.steer(before, goal(4.0, -step)).lyapunov) / (2.0 * step);
+        let slope = (law.steer(after, goal(4, step)).lyapunov - law.steer(before, goal(4, -step)).lyapunov) / (2.0 * step);
         prop_assert!((slope - now.lyapunov_rate).abs() < 1e-5 * (1.0 + slope.abs()), "{slope} {}", now.lyapunov_rate);
     }
 

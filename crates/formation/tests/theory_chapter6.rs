@@ -1,12 +1,11 @@
 //! Chapter 6: the simulation of 6.5 and the energy argument of A.12.
 #![expect(clippy::unwrap_used, reason = "a test may fail by a panic in a function of its own")]
-use nalgebra::SVector;
 use proptest::prelude::*;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
-use trench_formation::laws::{Attraction, GoalMotion, GoalTracking, ZonedAttraction};
-use trench_formation::stability::rk4;
-use trench_formation::trench::{ConstantDamping, Hyperbolic};
+use trench_formation::laws::{Attraction, ZonedAttraction};
+use trench_formation::simulate::{Integration, ZonedChain, ZonedChainScenario};
+use trench_formation::trench::Hyperbolic;
 use trench_formation::zoning::{Edge, Radii, Sharpness, Zone, Zoning};
 
 /// Table 6.1, in the printed order.
@@ -48,84 +47,43 @@ impl Run {
     }
 }
 
-/// Positions and velocities of the ten robots, four numbers each.
-type Team = SVector<f64, 40>;
-
-fn robot(team: &Team, index: usize) -> PointState {
-    let [x, y, vx, vy] = [0, 1, 2, 3].map(|part| team[4 * index + part]);
-    PointState { position: Vector2::new(x, y), velocity: Vector2::new(vx, vy) }
-}
-
-/// 300 s of 6.5: the segment y = x, directions of attraction across it, the chain leader drawn to (70, 70) by (5.1).
-fn simulate(zoning: Zoning, damping: f64, method: Method) -> Run {
+/// 300 s of 6.5: the segment y = x, directions of attraction across it, the chain leader drawn to (70, 70) by (5.3).
+fn simulate(zoning: Zoning, damping: f64, method: Integration) -> Run {
     let follower = ZonedAttraction { trench: TRENCH, zoning, damping, leader_damping: 0.0, compensates: true };
     simulate_with(follower, method)
 }
 
-fn simulate_with(follower: ZonedAttraction<Hyperbolic>, method: Method) -> Run {
-    let ZonedAttraction { zoning, damping, .. } = follower;
-    let leader = GoalTracking { trench: TRENCH, damping: ConstantDamping { coefficient: damping } };
-    let goal = GoalMotion::at_rest(Vector2::new(70.0, 70.0));
-    let rate = |_: f64, team: &Team| {
-        let mut rate = Team::zeros();
-        let mut ahead: Vec<Vector2<f64>> = Vec::new();
-        for index in 0..10 {
-            let state = robot(team, index);
-            let acceleration = if index == 0 {
-                leader.steer(state, goal).acceleration
-            } else {
-                let attraction = Attraction::on_line(state, ACROSS, Vector2::zeros(), DIAGONAL).unwrap();
-                follower.steer(state, attraction, robot(team, index - 1), &ahead[..index - 1]).acceleration
-            };
-            ahead.push(state.position);
-            for (part, value) in [state.velocity.x, state.velocity.y, acceleration.x, acceleration.y].iter().enumerate()
-            {
-                rate[4 * index + part] = *value;
-            }
-        }
-        rate
+fn simulate_with(law: ZonedAttraction<Hyperbolic>, method: Integration) -> Run {
+    let zoning = law.zoning;
+    let state = |[x, y, vx, vy]: [f64; 4]| PointState { position: Vector2::new(x, y), velocity: Vector2::new(vx, vy) };
+    let scenario = ZonedChainScenario {
+        origin: Vector2::zeros(),
+        tangent: DIAGONAL,
+        directions: vec![ACROSS; 10],
+        team_goal: Vector2::new(70.0, 70.0),
+        robots: STARTS.map(state).to_vec(),
+        law,
     };
-    let mut team = Team::from_fn(|row, _| STARTS[row / 4][row % 4]);
+    let mut chain = ZonedChain::new(scenario, method, 0.01);
     let (mut closest, mut last_outside_neutral) = (f64::INFINITY, 0.0);
-    for tick in 0..30_000 {
-        team = match method {
-            Method::RungeKutta => rk4(0.0, team, 0.01, rate),
-            Method::SemiImplicitEuler => semi_implicit(team, rate(0.0, &team), 0.01),
-        };
-        let robots: Vec<PointState> = (0..10).map(|index| robot(&team, index)).collect();
-        for (index, robot) in robots.iter().enumerate() {
-            for other in &robots[..index] {
+    for _ in 0..30_000 {
+        chain.step();
+        for (index, robot) in chain.robots().iter().enumerate() {
+            for other in &chain.robots()[..index] {
                 closest = closest.min((robot.position - other.position).norm());
             }
         }
         let neutral = |pair: &[PointState]| zoning.zone((pair[0].position - pair[1].position).norm()) == Zone::Neutral;
-        if !robots.windows(2).all(neutral) {
-            last_outside_neutral = 0.01 * f64::from(tick + 1);
+        if !chain.robots().windows(2).all(neutral) {
+            last_outside_neutral = chain.time();
         }
     }
-    Run { robots: (0..10).map(|index| robot(&team, index)).collect(), closest, last_outside_neutral }
-}
-
-fn semi_implicit(team: Team, rate: Team, step: f64) -> Team {
-    let mut next = team;
-    for index in 0..10 {
-        let acceleration = Vector2::new(rate[4 * index + 2], rate[4 * index + 3]);
-        let state = robot(&team, index).advanced_semi_implicit(acceleration, step);
-        next.fixed_rows_mut::<2>(4 * index).copy_from(&state.position);
-        next.fixed_rows_mut::<2>(4 * index + 2).copy_from(&state.velocity);
-    }
-    next
-}
-
-#[derive(Clone, Copy)]
-enum Method {
-    RungeKutta,
-    SemiImplicitEuler,
+    Run { robots: chain.robots().to_vec(), closest, last_outside_neutral }
 }
 
 #[test]
 fn simulation_of_6_5() {
-    let run = simulate(table_6_2(), 2.0, Method::RungeKutta);
+    let run = simulate(table_6_2(), 2.0, Integration::RungeKutta);
     let expected = [8.7725, 9.8873, 9.8957, 9.8966, 9.8969, 9.8971, 9.8973, 9.8974, 9.8974];
     for (rank, (got, wanted)) in run.leader_distances().iter().zip(expected).enumerate() {
         assert!((got - wanted).abs() < 1e-3, "r{}: {got}, not {wanted}", rank + 2);
@@ -139,13 +97,13 @@ fn simulation_of_6_5() {
 /// at 1 ms).
 #[test]
 fn sampling_shows_in_6_5() {
-    let run = simulate(table_6_2(), 2.0, Method::SemiImplicitEuler);
+    let run = simulate(table_6_2(), 2.0, Integration::SemiImplicitEuler);
     assert!((run.leader_distances()[0] - 8.8014).abs() < 1e-3, "{:?}", run.leader_distances());
 }
 
 #[test]
 fn simulation_of_6_5_with_more_damping() {
-    let run = simulate(table_6_2(), 5.0, Method::RungeKutta);
+    let run = simulate(table_6_2(), 5.0, Integration::RungeKutta);
     assert!(
         run.leader_distances().iter().all(|distance| (distance - 9.985).abs() < 2e-3),
         "{:?}",
@@ -156,7 +114,7 @@ fn simulation_of_6_5_with_more_damping() {
 
 #[test]
 fn modified_radii_of_table_6_3() {
-    let run = simulate(table_6_3(), 2.0, Method::RungeKutta);
+    let run = simulate(table_6_3(), 2.0, Integration::RungeKutta);
     assert!(
         run.leader_distances().iter().all(|distance| (4.5..=9.0).contains(distance)),
         "{:?}",
@@ -171,8 +129,8 @@ fn modified_radii_of_table_6_3() {
 fn leader_damping_calms_the_chain() {
     let follower =
         ZonedAttraction { trench: TRENCH, zoning: table_6_2(), damping: 1.0, leader_damping: 0.0, compensates: true };
-    let wild = simulate_with(follower, Method::SemiImplicitEuler);
-    let calm = simulate_with(ZonedAttraction { leader_damping: 2.0, ..follower }, Method::SemiImplicitEuler);
+    let wild = simulate_with(follower, Integration::SemiImplicitEuler);
+    let calm = simulate_with(ZonedAttraction { leader_damping: 2.0, ..follower }, Integration::SemiImplicitEuler);
     assert!(wild.closest < 1.0 && calm.closest > 3.0, "{} {}", wild.closest, calm.closest);
     assert!(calm.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
     assert!(calm.last_outside_neutral < 20.0, "{}", calm.last_outside_neutral);

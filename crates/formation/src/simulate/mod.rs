@@ -1,14 +1,23 @@
-//! Lock-step simulation of a chain of double integrators under (7.13).
+//! Lock-step simulation of chains of double integrators under (7.13), and of what chapters 4 to 6 simulate:
+//! [`Regulation`] 4.4, [`GoalTeam`] 5.6, [`ZonedChain`] 6.5.
 //!
-//! Semi-implicit Euler in fixed steps; what robots know of one another is sampled at ticks of several steps. Nothing is drawn at
-//! random and sums have a fixed order: the same scenario gives the same bytes. Steps allocate nothing while the segment, or what
-//! encroaches on it, rests.
+//! Nothing is drawn at random and sums have a fixed order: the same scenario gives the same bytes. In a [`ChainSimulation`],
+//! semi-implicit Euler in fixed steps, what robots know of one another is sampled at ticks of several steps; steps allocate
+//! nothing while the segment, or what encroaches on it, rests.
 mod carriage;
 mod chain;
+mod goal_team;
+mod integrate;
 mod observe;
+mod regulation;
 mod scenario;
+mod zoned_chain;
 
 pub use crate::agent::{Encroaching, Remedies};
 pub use carriage::Carriage;
 pub use chain::ChainSimulation;
+pub use goal_team::{GoalTeam, WaveGoals};
+pub use integrate::Integration;
+pub use regulation::Regulation;
 pub use scenario::{ChainScenario, Options, ScenarioError};
+pub use zoned_chain::{ZonedChain, ZonedChainScenario};

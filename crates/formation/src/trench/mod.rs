@@ -2,6 +2,7 @@
 //!
 //! With d = |r_goal - r| a trench Phi pulls a robot by +Phi'(d) along the unit vector towards its goal point.
 mod admissibility;
+mod any;
 mod conic;
 mod critical;
 mod damping;
@@ -13,6 +14,7 @@ mod table;
 mod written;
 
 pub use admissibility::{Admissible, Inadmissible, check_admissibility};
+pub use any::AnyTrench;
 pub use conic::Conic;
 pub use critical::CriticallyDamped;
 pub use damping::{ConstantDamping, Damping, HyperbolicDamping, SaturatedDamping};

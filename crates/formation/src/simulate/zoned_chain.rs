@@ -1,0 +1,99 @@
+//! A chain that approaches a straight segment along directions of attraction, under (6.1): the simulation of 6.5.
+use super::Integration;
+use super::integrate::Integrator;
+use crate::Vector2;
+use crate::kinematics::PointState;
+use crate::laws::{Attraction, GoalMotion, GoalTracking, Steered, ZonedAttraction};
+use crate::trench::{ConstantDamping, Trench};
+
+/// What 6.5 simulates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ZonedChainScenario<T> {
+    /// A point of the segment, m.
+    pub origin: Vector2<f64>,
+    /// Unit vector along the segment.
+    pub tangent: Vector2<f64>,
+    /// Unit vectors in the directions of attraction, one a robot; not along the segment. The chain leader's is not used.
+    pub directions: Vec<Vector2<f64>>,
+    /// Where the chain leader goes by (5.3), m.
+    pub team_goal: Vector2<f64>,
+    /// Robots by rank at time 0.
+    pub robots: Vec<PointState>,
+    /// (6.1); its trench and damping are the chain leader's too.
+    pub law: ZonedAttraction<T>,
+}
+
+/// A chain under way.
+#[derive(Debug, Clone)]
+pub struct ZonedChain<T> {
+    scenario: ZonedChainScenario<T>,
+    robots: Vec<PointState>,
+    integrator: Integrator,
+    step: f64,
+    steps: u64,
+}
+
+impl<T: Trench + Clone> ZonedChain<T> {
+    /// Robots at their start. Robots beyond the directions given have none and are only damped.
+    pub fn new(scenario: ZonedChainScenario<T>, method: Integration, step: f64) -> Self {
+        let robots = scenario.robots.clone();
+        let integrator = Integrator::new(method, step, robots.len());
+        Self { scenario, robots, integrator, step, steps: 0 }
+    }
+
+    /// Advances by one step.
+    pub fn step(&mut self) {
+        let (scenario, mut ahead) = (&self.scenario, Vec::with_capacity(self.robots.len()));
+        self.integrator.advance(&mut self.robots, 0.0, |_, robots, rates| {
+            ahead.clear();
+            for (index, (robot, rate)) in robots.iter().zip(rates).enumerate() {
+                *rate = scenario.steer(robots, index, &ahead).acceleration;
+                ahead.push(robot.position);
+            }
+        });
+        self.steps += 1;
+    }
+
+    /// What the law says of the robot at `index` (0 is the chain leader) where it is now.
+    pub fn steered(&self, index: usize) -> Steered {
+        let ahead: Vec<Vector2<f64>> = self.robots.iter().take(index).map(|robot| robot.position).collect();
+        self.scenario.steer(&self.robots, index, &ahead)
+    }
+
+    /// The point that attracts a robot: the team goal for the chain leader.
+    pub fn point_of_attraction(&self, index: usize) -> Vector2<f64> {
+        let scenario = &self.scenario;
+        if index == 0 { scenario.team_goal } else { scenario.attraction(self.robots[index], index).point }
+    }
+
+    /// Seconds simulated.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.step
+    }
+
+    /// Robots by rank.
+    pub fn robots(&self) -> &[PointState] {
+        &self.robots
+    }
+}
+
+impl<T: Trench + Clone> ZonedChainScenario<T> {
+    /// The point of attraction of a robot; a robot without a direction attracts itself where it is.
+    pub fn attraction(&self, robot: PointState, index: usize) -> Attraction {
+        let direction = self.directions.get(index);
+        let found = direction.and_then(|direction| Attraction::on_line(robot, *direction, self.origin, self.tangent));
+        found.unwrap_or(Attraction { point: robot.position, velocity: robot.velocity })
+    }
+
+    fn steer(&self, robots: &[PointState], index: usize, ahead: &[Vector2<f64>]) -> Steered {
+        let robot = robots[index];
+        let Some(leader) = index.checked_sub(1) else {
+            let law = GoalTracking {
+                trench: self.law.trench.clone(),
+                damping: ConstantDamping { coefficient: self.law.damping },
+            };
+            return law.steer(robot, GoalMotion::at_rest(self.team_goal));
+        };
+        self.law.steer(robot, self.attraction(robot, index), robots[leader], &ahead[..leader])
+    }
+}
