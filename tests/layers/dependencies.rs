@@ -19,6 +19,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("trench_sim", &["trench_optics", "trench_radio"]),
     ("trench_plan", &["trench_config", "trench_expression", "trench_formation", "trench_msgs"]),
     ("trench_check", &["trench_config", "trench_formation", "trench_plan"]),
+    ("trench_scenario", &["trench_config", "trench_formation", "trench_plan"]),
     ("trench_bag", &["trench_config", "trench_core", "trench_msgs", "trench_rosidl"]),
     ("trench_journal", &["trench_bag", "trench_config", "trench_core", "trench_msgs"]),
     ("trench_runtime", &["trench_config", "trench_core", "trench_journal", "trench_msgs", "trench_rosidl"]),
@@ -29,7 +30,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("testbed", &["trench_sim"]),
     (CAMERA, &["trench_bag"]),
     ("trench", &["trench_bag", "trench_config", "trench_core", "trench_harness", "trench_launch", "trench_msgs"]),
-    ("trench", &["trench_check", "trench_journal", "trench_plan", "trench_runtime", "trench_view"]),
+    ("trench", &["trench_check", "trench_journal", "trench_plan", "trench_runtime", "trench_scenario", "trench_view"]),
 ];
 
 /// The one node that reads devices, image folders and bags itself: what it publishes is new to the system, and recorded.

@@ -9,4 +9,5 @@ mod purity;
 mod source;
 
 /// The pure libraries: their folders, whose names Cargo knows with the prefix `trench_`.
-const PURE_CRATES: [&str; 9] = ["check", "config", "core", "expression", "formation", "optics", "plan", "radio", "sim"];
+const PURE_CRATES: [&str; 10] =
+    ["check", "config", "core", "expression", "formation", "optics", "plan", "radio", "scenario", "sim"];

@@ -121,8 +121,11 @@ fn share(map: &Map<'_>) -> Result<f64, ConfigError> {
     Err(map.node("share")?.error("is no fraction", "write a number from 0 to 1"))
 }
 
-/// The segment's description and curve: a map with the kind, its numbers, and open ends.
-fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
+/// Reads a segment's description and curve: a map with the kind, its numbers, and open ends.
+///
+/// # Errors
+/// The first thing that is wrong, with file, line, key, value and remedy.
+pub fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
     let map = node.map()?;
     let shape = match map.str("kind")? {
         "line" => match points(map.node("points")?)?.as_slice() {

@@ -12,7 +12,7 @@ mod scale;
 mod segment;
 
 pub use expression::{expression, expression_remedy};
-pub use file::parse;
+pub use file::{parse, segment};
 pub use message::{FormationError, plan_from_message};
 pub use plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
 pub use sample::sampled;

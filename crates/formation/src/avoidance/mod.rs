@@ -2,10 +2,12 @@
 //!
 //! A [`Watch`] notices that a robot rests where forces cancel, (7.10). A [`Guard`] drawn before an apparent obstacle turns the
 //! repulsion aside: [`auxiliary_arc`] where the nearest point moves along with the robot (Fig. 7.12), [`auxiliary_lines`] where it
-//! does not (Fig. 7.13). [`escape`] leads out of a combined hull that has closed around a robot. [`ComparedRepulsion`] is what 7.8 compares with.
+//! does not (Fig. 7.13). [`escape`] leads out of a combined hull that has closed around a robot. [`ComparedRepulsion`] is what 7.8
+//! compares with, [`GoalPotential`] and [`VelocityPotential`] what 5.5 does.
 mod arc;
 mod compared;
 mod escape;
+mod goal_potentials;
 mod guard;
 mod lines;
 mod watch;
@@ -13,6 +15,7 @@ mod watch;
 pub use arc::auxiliary_arc;
 pub use compared::ComparedRepulsion;
 pub use escape::escape;
+pub use goal_potentials::{GoalPotential, VelocityPotential};
 pub use guard::Guard;
 pub use lines::auxiliary_lines;
 pub use watch::{Watch, WatchSettings};

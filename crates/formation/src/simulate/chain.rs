@@ -11,7 +11,7 @@ use crate::trench::Trench;
 pub struct ChainSimulation<T> {
     pub(super) scenario: ChainScenario<T>,
     /// Real and apparent obstacles at the last tick, velocities of the apparent ones.
-    real: Vec<Obstacle>,
+    pub(super) real: Vec<Obstacle>,
     pub(super) obstacles: Vec<ApparentObstacle>,
     velocities: Vec<Vector2<f64>>,
     pub(super) robots: Vec<PointState>,

@@ -2,7 +2,7 @@
 use super::ChainSimulation;
 use crate::agent::{Action, Agent};
 use crate::curve::Interval;
-use crate::hull::ApparentObstacle;
+use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
 use crate::trench::Trench;
 
@@ -25,6 +25,11 @@ impl<T: Trench> ChainSimulation<T> {
     /// Distances from the points that drew the robots at the last step, m; infinite before any did.
     pub fn deviations(&self) -> &[f64] {
         &self.deviations
+    }
+
+    /// Obstacles as they are, at the last tick.
+    pub fn real_obstacles(&self) -> &[Obstacle] {
+        &self.real
     }
 
     /// Apparent obstacles.

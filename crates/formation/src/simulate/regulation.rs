@@ -79,6 +79,11 @@ impl<L: PointLaw> Regulation<L> {
         self.law.twist(self.polar())
     }
 
+    /// Where it goes, m.
+    pub fn goal(&self) -> Vector2<f64> {
+        self.goal
+    }
+
     /// J_n of Table 4.1: the integral of v^2 + omega^2 so far.
     pub fn effort(&self) -> f64 {
         self.state.w

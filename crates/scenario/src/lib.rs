@@ -1,0 +1,19 @@
+//! Simulations as people write them: [`parse`] reads a scenario file, [`Simulation`] runs it in steps, [`Measures`] judges it.
+//!
+//! A file names one of the simulations of the thesis by its `kind`, and everything it needs in SI units: robots, segment,
+//! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
+
+mod law;
+mod measures;
+mod read;
+mod scenario;
+mod simulation;
+
+pub use law::{ChosenLaw, GoalLaw};
+pub use measures::{CaseSummary, Measures, ObstacleSummary, RobotSummary, Summary};
+pub use read::{is_scenario, parse};
+pub use scenario::{
+    Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating, RegulatingCase, Scenario, Seat, Start, Task,
+    Timing,
+};
+pub use simulation::{RunError, Sample, Simulation};

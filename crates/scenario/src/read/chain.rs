@@ -1,0 +1,230 @@
+//! `kind: directions_of_attraction` (6.5) and `kind: nearest_points` (chapter 7).
+
+use super::common::{edge, not_negative, point, point_or_zero, points, positive, sharpness, some, trench, zoning};
+use crate::scenario::{Directed, Task, Timing};
+use trench_config::ConfigError;
+use trench_config::yaml::{Map, Node};
+use trench_formation::Vector2;
+use trench_formation::avoidance::WatchSettings;
+use trench_formation::curve::{CurveShape, Placed};
+use trench_formation::hull::{Obstacle, Outline, Shape, combine};
+use trench_formation::kinematics::PointState;
+use trench_formation::laws::{NearestAttraction, ZonedAttraction};
+use trench_formation::seek::{Fragments, LeaderRule, SeekSettings};
+use trench_formation::simulate::{
+    Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, ZonedChainScenario,
+};
+use trench_formation::trench::AnyTrench;
+use trench_formation::zoning::ObstaclePotential;
+
+/// 6.5.
+pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
+    let node = map.node("segment")?;
+    let (shape, _) = trench_plan::segment(node)?;
+    let CurveShape::Line(from, to) = shape else {
+        return Err(node.error("is not straight", "directions of attraction are simulated towards kind: line"));
+    };
+    let law = law(map)?;
+    let zoning = zoning(map)?;
+    let nodes = some(map, "robots")?;
+    let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
+    let tangent = (to - from).normalize();
+    let direction = map.opt_f64("direction")?;
+    let across = Vector2::new(-tangent.y, tangent.x);
+    let unit = |angle: f64| Vector2::new(libm::cos(angle), libm::sin(angle));
+    let chain = ZonedChainScenario {
+        origin: from,
+        tangent,
+        directions: vec![direction.map_or(across, unit); robots.len()],
+        team_goal: point(map.node("team_goal")?)?,
+        robots,
+        law: ZonedAttraction {
+            trench: law.trench,
+            zoning,
+            damping: law.damping,
+            leader_damping: law.leader_damping,
+            compensates: map.get_or("compensates", true)?,
+        },
+    };
+    for (index, (robot, node)) in chain.robots.iter().zip(nodes).enumerate() {
+        for (other, mate) in chain.robots[..index].iter().enumerate() {
+            let distance = (mate.position - robot.position).norm();
+            if distance <= zoning.radii().rho_underbar {
+                let problem = format!("starts {distance} m from r{}, within zone 1", other + 1);
+                return Err(node.error(problem, "move one of them"));
+            }
+        }
+        // A direction is proper if the segment, seen along it, reaches as far as the robot drifts (6.3).
+        let point = chain.attraction(*robot, index).point;
+        let drift = if index == 0 { 0.0 } else { chain.law.drift_across(chain.directions[index], *robot) };
+        let along = (point - from).dot(&tangent);
+        if index > 0 && !(drift..=(to - from).norm() - drift).contains(&along) {
+            let problem = format!("has no point of attraction on the segment: its direction meets it at {along} m");
+            return Err(node.error(problem, "lengthen the segment or choose another direction (6.3)"));
+        }
+    }
+    Ok(Directed { chain, segment: shape })
+}
+
+/// Chapter 7.
+pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigError> {
+    let (shape, curve) = trench_plan::segment(map.node("segment")?)?;
+    let robots = some(map, "robots")?;
+    let listed: Vec<(Obstacle, Vector2<f64>)> =
+        map.opt_list("obstacles")?.iter().map(obstacles).collect::<Result<Vec<_>, _>>()?.concat();
+    let listed = listed.into_iter().zip(1..).map(|((obstacle, velocity), id)| (Obstacle { id, ..obstacle }, velocity));
+    let (obstacles, velocities): (Vec<Obstacle>, Vec<Vector2<f64>>) = listed.unzip();
+    let scenario = ChainScenario {
+        segment: curve,
+        carriage: map.opt_map("segment_motion")?.map_or(Ok(Carriage::parked()), |map| carriage(&map))?,
+        team_goal: map.opt_node("team_goal").map(point).transpose()?,
+        robots: robots.iter().map(state).collect::<Result<_, _>>()?,
+        law: law(map)?,
+        zoning: zoning(map)?,
+        obstacles,
+        clearance: not_negative(map, "clearance", 0.0)?,
+        potential: potential(map)?,
+        seeking: seeking(map)?,
+        encroaching: encroaching(map)?,
+        remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
+        options: Options {
+            sidesteps: map.get_or("sidesteps", false)?,
+            obstacle_velocities: velocities,
+            ..Options::default()
+        },
+        step: timing.step,
+        steps_per_tick: map.get_or("steps_per_tick", 1)?,
+    };
+    buildable(map, robots, &scenario)?;
+    Ok(Task::Nearest(Box::new(scenario), shape))
+}
+
+/// Whether the chain can be built, and leaves its robots a place.
+fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>) -> Result<(), ConfigError> {
+    if let Err(error) = ChainSimulation::new(scenario.clone()) {
+        let text = error.to_string();
+        return Err(match error {
+            ScenarioError::StartInZoneOne(_, rank, _) | ScenarioError::StartInObstacle(rank, _) => {
+                robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
+            }
+            ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
+            ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
+            _ => map.as_node().error(text, ""),
+        });
+    }
+    let whole = (0.0, scenario.segment.length());
+    let placed = Placed::new(&scenario.segment, scenario.carriage.at(0.0).0);
+    let combined = combine(&scenario.obstacles, scenario.clearance)
+        .map_err(|error| map.error("obstacles", error.to_string(), "mend the obstacles or the clearance"))?;
+    let outlines: Vec<Outline<'_>> = combined.iter().map(|obstacle| obstacle.shape.outline()).collect();
+    let fragments = Fragments::find(&placed, whole, &outlines, scenario.potential.cut(), scenario.seeking.room);
+    if fragments.intervals().is_empty() {
+        let problem = "cover the whole segment: no qualified fragment is left for a robot (7.5.1)";
+        return Err(map.error("obstacles", problem, "move obstacles away, or lengthen the segment"));
+    }
+    Ok(())
+}
+
+fn law(map: &Map<'_>) -> Result<NearestAttraction<AnyTrench>, ConfigError> {
+    let trench = trench(map, "trench")?;
+    let (damping, leader_damping) = (positive(map, "damping")?, not_negative(map, "leader_damping", 0.0)?);
+    Ok(NearestAttraction { trench, damping, leader_damping })
+}
+
+fn state(node: &Node) -> Result<PointState, ConfigError> {
+    let map = node.map()?;
+    let state = PointState { position: point(map.node("position")?)?, velocity: point_or_zero(&map, "velocity")? };
+    map.finish()?;
+    Ok(state)
+}
+
+fn carriage(map: &Map<'_>) -> Result<Carriage, ConfigError> {
+    let carriage = Carriage {
+        origin: point_or_zero(map, "origin")?,
+        heading: map.get_or("heading", 0.0)?,
+        velocity: point_or_zero(map, "velocity")?,
+        turn_rate: map.get_or("turn_rate", 0.0)?,
+    };
+    map.finish()?;
+    Ok(carriage)
+}
+
+/// A disc, a convex polygon, or walls: the pieces of an open chain of corners, which make concave obstacles.
+fn obstacles(node: &Node) -> Result<Vec<(Obstacle, Vector2<f64>)>, ConfigError> {
+    let map = node.map()?;
+    let velocity = point_or_zero(&map, "velocity")?;
+    let shape = |points: &[Vector2<f64>], radius: f64| {
+        let shape = Shape::new(points, radius).map_err(|error| node.error(error.to_string(), "mend the obstacle"))?;
+        Ok::<_, ConfigError>((Obstacle { id: 0, shape }, velocity))
+    };
+    let found = if let Some(centre) = map.opt_node("disc") {
+        vec![shape(&[point(centre)?], positive(&map, "radius")?)?]
+    } else if let Some(corners) = map.opt_node("walls") {
+        let (corners, radius) = (points(corners)?, not_negative(&map, "radius", 0.0)?);
+        if corners.len() < 2 {
+            return Err(map.error("walls", "has no two corners", "give two or more"));
+        }
+        corners.windows(2).map(|pair| shape(pair, radius)).collect::<Result<_, _>>()?
+    } else {
+        vec![shape(&points(map.node("polygon")?)?, not_negative(&map, "radius", 0.0)?)?]
+    };
+    map.finish()?;
+    Ok(found)
+}
+
+fn potential(map: &Map<'_>) -> Result<ObstaclePotential, ConfigError> {
+    let map = map.map("obstacle_potential")?;
+    let (pole, cut) = (not_negative(&map, "pole", 0.0)?, positive(&map, "cut")?);
+    let full = map.get_or("full_acceleration", 1e4)?;
+    let made = ObstaclePotential::new(pole, cut, positive(&map, "strength")?, sharpness(&map)?, edge(&map)?, full);
+    let made = made.map_err(|error| map.error("cut", error.to_string(), "mend the gaps"))?;
+    map.finish()?;
+    Ok(made)
+}
+
+fn seeking(map: &Map<'_>) -> Result<SeekSettings, ConfigError> {
+    let standard = SeekSettings {
+        room: 0.0,
+        transit_margin: 1e-3,
+        settled_distance: 0.05,
+        settled_speed: 0.05,
+        leader_rule: LeaderRule::StepSix,
+    };
+    let Some(map) = map.opt_map("seeking")? else { return Ok(standard) };
+    let rules = [("step_six", LeaderRule::StepSix), ("whole_segment_while_far", LeaderRule::WholeSegmentWhileFar)];
+    let settings = SeekSettings {
+        room: map.get_or("room", standard.room)?,
+        transit_margin: map.get_or("transit_margin", standard.transit_margin)?,
+        settled_distance: map.get_or("settled_distance", standard.settled_distance)?,
+        settled_speed: map.get_or("settled_speed", standard.settled_speed)?,
+        leader_rule: if map.opt_node("leader_rule").is_some() {
+            map.one_of("leader_rule", &rules)?
+        } else {
+            standard.leader_rule
+        },
+    };
+    map.finish()?;
+    Ok(settings)
+}
+
+fn encroaching(map: &Map<'_>) -> Result<Encroaching, ConfigError> {
+    if map.opt_node("encroaching").is_none() {
+        return Ok(Encroaching::Nothing);
+    }
+    match map.one_of("encroaching", &[("nothing", 0), ("obstacles", 1), ("obstacles_and_robots", 2)])? {
+        0 => Ok(Encroaching::Nothing),
+        1 => Ok(Encroaching::Obstacles),
+        _ => Ok(Encroaching::ObstaclesAndRobots(positive(map, "body_radius")?)),
+    }
+}
+
+fn remedies(map: &Map<'_>) -> Result<Remedies, ConfigError> {
+    let watch = WatchSettings {
+        radius: positive(map, "radius")?,
+        patience: positive(map, "patience")?,
+        arrived: positive(map, "arrived")?,
+    };
+    let remedies = Remedies { watch, rising: positive(map, "rising")? };
+    map.finish()?;
+    Ok(remedies)
+}

@@ -1,0 +1,133 @@
+//! What several kinds of scenarios have.
+
+use trench_config::ConfigError;
+use trench_config::yaml::{Map, Node};
+use trench_formation::Vector2;
+use trench_formation::trench::{
+    AnyTrench, Conic, Hyperbolic, Meaning, Quadratic, Saturated, SlopeTable, SquareRoot, Written, check_admissibility,
+};
+use trench_formation::zoning::{Edge, Radii, RadiiError, Sharpness, Zoning};
+
+/// Trenches are judged and written ones defined this far out, m.
+const RANGE: f64 = 1000.0;
+
+/// A number above 0.
+pub(super) fn positive(map: &Map<'_>, key: &str) -> Result<f64, ConfigError> {
+    let value = map.f64(key)?;
+    if value > 0.0 { Ok(value) } else { Err(map.error(key, "is not positive", "write a number above 0")) }
+}
+
+/// A number of 0 or more.
+pub(super) fn not_negative(map: &Map<'_>, key: &str, default: f64) -> Result<f64, ConfigError> {
+    let value = map.get_or(key, default)?;
+    if value >= 0.0 { Ok(value) } else { Err(map.error(key, "is negative", "write 0 or more")) }
+}
+
+/// `[x, y]`.
+pub(super) fn point(node: &Node) -> Result<Vector2<f64>, ConfigError> {
+    node.get::<[f64; 2]>().map(Vector2::from)
+}
+
+/// A list of `[x, y]`.
+pub(super) fn points(node: &Node) -> Result<Vec<Vector2<f64>>, ConfigError> {
+    node.list()?.iter().map(point).collect()
+}
+
+/// `[x, y]` of a key, the origin where it is missing.
+pub(super) fn point_or_zero(map: &Map<'_>, key: &str) -> Result<Vector2<f64>, ConfigError> {
+    map.opt_node(key).map_or(Ok(Vector2::zeros()), point)
+}
+
+/// A name that may stand in a topic.
+pub(super) fn name(map: &Map<'_>) -> Result<String, ConfigError> {
+    let name = map.str("name")?;
+    let fits = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
+    if name.starts_with(|first: char| first.is_ascii_lowercase()) && name.chars().all(fits) {
+        return Ok(name.to_owned());
+    }
+    Err(map.error("name", "cannot be part of a topic", "begin with a letter; small letters, digits and _ alone"))
+}
+
+/// Items of a list that must have some.
+pub(super) fn some<'a>(map: &Map<'a>, key: &str) -> Result<&'a [Node], ConfigError> {
+    let nodes = map.list(key)?;
+    if nodes.is_empty() { Err(map.error(key, "is empty", "give at least one")) } else { Ok(nodes) }
+}
+
+/// A trench function, admissible.
+pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError> {
+    let map = map.map(key)?;
+    let kinds = [
+        ("hyperbolic", 0),
+        ("conic", 1),
+        ("quadratic", 2),
+        ("saturated", 3),
+        ("square_root", 4),
+        ("table", 5),
+        ("expression", 6),
+    ];
+    let trench = match map.one_of("kind", &kinds)? {
+        0 => AnyTrench::Hyperbolic(Hyperbolic { alpha: positive(&map, "alpha")?, a: positive(&map, "a")? }),
+        1 => AnyTrench::Conic(Conic { alpha: positive(&map, "alpha")? }),
+        2 => AnyTrench::Quadratic(Quadratic { alpha: positive(&map, "alpha")? }),
+        3 => AnyTrench::Saturated(Saturated { stiffness: positive(&map, "stiffness")?, edge: positive(&map, "edge")? }),
+        4 => AnyTrench::SquareRoot(SquareRoot),
+        5 => {
+            let rows: Vec<[f64; 2]> = map.get("slope")?;
+            let table = SlopeTable::new(rows.into_iter().map(|[x, slope]| (x, slope)).collect());
+            AnyTrench::Table(table.map_err(|error| map.error("slope", error.to_string(), "rows are [x, slope]"))?)
+        }
+        _ => {
+            let range = map.get_or("range", RANGE)?;
+            let (key, meaning) = match map.opt_node("potential") {
+                Some(_) => ("potential", Meaning::Potential),
+                None => ("slope", Meaning::Slope),
+            };
+            let written = Written::new(trench_plan::expression(map.node(key)?)?, meaning, range);
+            AnyTrench::Written(Box::new(
+                written.map_err(|error| map.error(key, error.to_string(), "write another formula"))?,
+            ))
+        }
+    };
+    map.finish()?;
+    let judged = check_admissibility(&trench, RANGE);
+    judged.map_err(|error| map.as_node().error(error.to_string(), "choose another trench (trench check says more)"))?;
+    Ok(trench)
+}
+
+const EDGES: [(&str, Edge); 2] = [("jump", Edge::Jump), ("continuous", Edge::Continuous)];
+
+/// How a barrier begins at its edge; as printed where nothing is said.
+pub(super) fn edge(map: &Map<'_>) -> Result<Edge, ConfigError> {
+    if map.opt_node("edge").is_some() { map.one_of("edge", &EDGES) } else { Ok(Edge::Jump) }
+}
+
+/// The exponent m.
+pub(super) fn sharpness(map: &Map<'_>) -> Result<Sharpness, ConfigError> {
+    match map.get_or("m", 2_i64)? {
+        1 => Ok(Sharpness::One),
+        2 => Ok(Sharpness::Two),
+        _ => Err(map.error("m", "is no exponent of a zoning potential", "write 1 or 2 (6.4)")),
+    }
+}
+
+/// Radii and zoning potentials.
+pub(super) fn zoning(map: &Map<'_>) -> Result<Zoning, ConfigError> {
+    let map = map.map("zoning")?;
+    let [a, b, c, d, e] = ["rho_underbar", "rho_hat", "rho", "rho_check", "rho_bar"].map(|key| map.f64(key));
+    let radii = Radii::new(a?, b?, c?, d?, e?).map_err(|error| {
+        let (key, remedy) = match error {
+            RadiiError::NotPositive { name, .. } => (name, "write a radius above 0"),
+            RadiiError::Order { outer_name, .. } => {
+                (outer_name, "order them: rho_underbar < rho_hat < rho < rho_check <= rho_bar")
+            }
+        };
+        map.error(key, error.to_string(), remedy)
+    })?;
+    let strength = (positive(&map, "alpha")?, positive(&map, "beta")?);
+    let full = map.get_or("full_acceleration", 1e4)?;
+    let zoning = Zoning::new(radii, strength, sharpness(&map)?, edge(&map)?, full);
+    let zoning = zoning.map_err(|error| map.as_node().error(error.to_string(), "mend it"))?;
+    map.finish()?;
+    Ok(zoning)
+}

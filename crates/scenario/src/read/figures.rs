@@ -1,0 +1,51 @@
+//! `figures:` the pictures that belong to a scenario.
+
+use crate::scenario::{Drawing, Figure, Scenario, Task};
+use trench_config::yaml::Node;
+use trench_config::{ConfigError, did_you_mean};
+
+const DRAWINGS: [(&str, Drawing); 7] = [
+    ("trajectories", Drawing::Trajectories),
+    ("snapshots", Drawing::Snapshots),
+    ("errors", Drawing::Errors),
+    ("misalignments", Drawing::Misalignments),
+    ("leader_distances", Drawing::LeaderDistances),
+    ("curvatures", Drawing::Curvatures),
+    ("speeds", Drawing::Speeds),
+];
+
+pub(super) fn read(nodes: &[Node], scenario: &Scenario) -> Result<Vec<Figure>, ConfigError> {
+    nodes.iter().map(|node| figure(node, scenario)).collect()
+}
+
+fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
+    let map = node.map()?;
+    let figure = Figure {
+        number: map.str("figure")?.to_owned(),
+        title: map.str("title")?.to_owned(),
+        drawing: map.one_of("draws", &DRAWINGS)?,
+        robots: map.get_or("robots", Vec::new())?,
+        cases: map.get_or("cases", Vec::new())?,
+        at: map.get_or("at", Vec::new())?,
+        window: map.opt("window")?,
+    };
+    map.finish()?;
+    if let Some([left, right, bottom, top]) = figure.window
+        && (left >= right || bottom >= top)
+    {
+        return Err(map.error("window", "is empty", "write [left, right, bottom, top]"));
+    }
+    if matches!(scenario.task, Task::Launch(_)) {
+        return Ok(figure);
+    }
+    let ranks: Vec<String> = scenario.seats().iter().map(|seat| format!("r{}", seat.rank)).collect();
+    let cases: Vec<&str> = scenario.cases().into_iter().map(|(name, _)| name).collect();
+    let known =
+        |key: &str, wanted: &[String], known: Vec<&str>| match wanted.iter().find(|name| !known.contains(&&***name)) {
+            Some(name) => Err(map.error(key, format!("{name} is not in this scenario"), did_you_mean(name, known))),
+            None => Ok(()),
+        };
+    known("robots", &figure.robots, ranks.iter().map(String::as_str).collect())?;
+    known("cases", &figure.cases, cases)?;
+    Ok(figure)
+}

@@ -1,0 +1,120 @@
+//! Scenario files.
+
+mod chain;
+mod common;
+mod figures;
+mod goals;
+mod regulating;
+
+use crate::scenario::{Launch, Scenario, Task, Timing};
+use trench_config::ConfigError;
+use trench_config::yaml::{self, Map};
+use trench_formation::simulate::Integration;
+
+/// The kinds of scenarios.
+#[derive(Clone, Copy)]
+enum Kind {
+    Regulation,
+    GoalTracking,
+    Directions,
+    Nearest,
+    Launch,
+}
+
+const KINDS: [(&str, Kind); 5] = [
+    ("regulation", Kind::Regulation),
+    ("goal_tracking", Kind::GoalTracking),
+    ("directions_of_attraction", Kind::Directions),
+    ("nearest_points", Kind::Nearest),
+    ("launch", Kind::Launch),
+];
+
+/// Steps of one run at most: beyond, a step or duration is a slip.
+const MOST_STEPS: f64 = 1e8;
+
+/// Whether a YAML text is a scenario rather than a launch file: its root is a map with a `kind`.
+#[must_use]
+pub fn is_scenario(text: &str) -> bool {
+    let root = yaml::parse("", text);
+    root.is_ok_and(|root| root.map().is_ok_and(|map| map.opt_node("kind").is_some()))
+}
+
+/// Reads a scenario file; `file` names it in errors.
+///
+/// # Errors
+/// The first thing that is wrong, with file, line, key, value and remedy.
+pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
+    let root = yaml::parse(file, text)?;
+    let map = root.map()?;
+    let kind = map.one_of("kind", &KINDS)?;
+    let name = map.str("name")?.to_owned();
+    let section = map.opt_str("section")?.unwrap_or_default().to_owned();
+    let (timing, task) = match kind {
+        Kind::Launch => (unused(), Task::Launch(launch(&map)?)),
+        kind => {
+            let timing = timing(&map, kind)?;
+            let task = match kind {
+                Kind::Regulation => Task::Regulating(regulating::read(&map)?),
+                Kind::GoalTracking => Task::GoalTracking(goals::read(&map)?),
+                Kind::Directions => Task::Directed(Box::new(chain::directed(&map)?)),
+                _ => chain::nearest(&map, &timing)?,
+            };
+            (timing, task)
+        }
+    };
+    let tolerance = match map.opt_node("tolerance") {
+        Some(_) => common::positive(&map, "tolerance")?,
+        None => 0.05,
+    };
+    let mut scenario = Scenario { name, section, tolerance, timing, task, figures: Vec::new() };
+    scenario.figures = figures::read(map.opt_list("figures")?, &scenario)?;
+    map.finish()?;
+    Ok(scenario)
+}
+
+fn timing(map: &Map<'_>, kind: Kind) -> Result<Timing, ConfigError> {
+    let (duration, step) = (common::positive(map, "duration")?, common::positive(map, "step")?);
+    if duration / step > MOST_STEPS || step > duration {
+        return Err(map.error("step", format!("makes {} steps", duration / step), "write one that fits the duration"));
+    }
+    let methods = [
+        ("exact", Integration::Exact),
+        ("rk4", Integration::RungeKutta),
+        ("semi_implicit_euler", Integration::SemiImplicitEuler),
+    ];
+    let integration = map.one_of("method", &methods)?;
+    match (kind, integration) {
+        (Kind::Nearest, Integration::Exact | Integration::RungeKutta) => {
+            let problem = "does not suit forces that jump at obstacles, nor robots that remember";
+            return Err(map.error("method", problem, "write semi_implicit_euler"));
+        }
+        (Kind::Regulation, Integration::SemiImplicitEuler) => {
+            return Err(map.error("method", "is for accelerations", "write exact or rk4"));
+        }
+        _ => {}
+    }
+    let every = match map.opt_node("record_every") {
+        Some(_) => common::positive(map, "record_every")?,
+        None => step,
+    };
+    let steps = libm::round(every / step);
+    if steps < 1.0 || libm::fabs(steps * step - every) > 1e-6 * every {
+        return Err(map.error("record_every", "is no multiple of the step", format!("write a multiple of {step}")));
+    }
+    Ok(Timing { duration, step, integration, record_every: steps as u64 })
+}
+
+/// Launch files bring their own clock.
+fn unused() -> Timing {
+    Timing { duration: 0.0, step: 0.0, integration: Integration::Exact, record_every: 1 }
+}
+
+fn launch(map: &Map<'_>) -> Result<Launch, ConfigError> {
+    let mut arguments = Vec::new();
+    if let Some(given) = map.opt_map("arguments")? {
+        for entry in given.entries() {
+            arguments.push((entry.key.clone(), entry.node.str()?.to_owned()));
+        }
+    }
+    Ok(Launch { file: map.str("launch")?.to_owned(), arguments })
+}

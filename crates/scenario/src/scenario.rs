@@ -1,0 +1,216 @@
+//! What a scenario file says.
+
+use crate::{ChosenLaw, GoalLaw};
+use trench_formation::Vector2;
+use trench_formation::curve::CurveShape;
+use trench_formation::kinematics::{PointState, Pose};
+use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
+use trench_formation::trench::AnyTrench;
+use trench_formation::zoning::Zoning;
+
+/// A simulation, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scenario {
+    /// Its name.
+    pub name: String,
+    /// The section of the thesis that it reproduces; empty for others.
+    pub section: String,
+    /// A robot conforms once it is for good within this distance of what draws it, m.
+    pub tolerance: f64,
+    /// Step and duration.
+    pub timing: Timing,
+    /// What is simulated.
+    pub task: Task,
+    /// The pictures that the thesis shows of it.
+    pub figures: Vec<Figure>,
+}
+
+/// When and how.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// s.
+    pub duration: f64,
+    /// s.
+    pub step: f64,
+    /// How the equations are integrated.
+    pub integration: Integration,
+    /// Steps between two recorded instants.
+    pub record_every: u64,
+}
+
+/// What is simulated.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Task {
+    /// 4.4.
+    Regulating(Regulating),
+    /// 5.5, 5.6.
+    GoalTracking(GoalTracking),
+    /// 6.5.
+    Directed(Box<Directed>),
+    /// Chapter 7.
+    Nearest(Box<ChainScenario<AnyTrench>>, CurveShape),
+    /// 4.6: node cores in lock-step.
+    Launch(Launch),
+}
+
+/// Unicycles under laws of chapter 4, one team a law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Regulating {
+    /// Where they go, m.
+    pub goal: Vector2<f64>,
+    /// The laws.
+    pub cases: Vec<RegulatingCase>,
+    /// Where robots start.
+    pub starts: Vec<Start>,
+}
+
+/// A start of a unicycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Start(pub Pose);
+
+/// One of several laws.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegulatingCase {
+    /// Part of its robots' names.
+    pub name: String,
+    /// What legends say.
+    pub label: String,
+    /// Its law.
+    pub law: ChosenLaw,
+}
+
+/// Double integrators with goal points on a wave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalTracking {
+    /// The goal points.
+    pub goals: WaveGoals,
+    /// The laws.
+    pub cases: Vec<GoalCase>,
+    /// Robots of each case.
+    pub robots: Vec<PointState>,
+}
+
+/// One of several laws.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalCase {
+    /// Part of its robots' names.
+    pub name: String,
+    /// What legends say.
+    pub label: String,
+    /// Its law.
+    pub law: GoalLaw,
+}
+
+/// A chain along directions of attraction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Directed {
+    /// What is simulated.
+    pub chain: ZonedChainScenario<AnyTrench>,
+    /// The whole segment, m.
+    pub segment: CurveShape,
+}
+
+/// A launch file, driven as `trench sim` drives it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Launch {
+    /// Relative to the scenario file.
+    pub file: String,
+    /// Arguments of the launch file.
+    pub arguments: Vec<(String, String)>,
+}
+
+/// A picture of the thesis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Its number, for example "6.7".
+    pub number: String,
+    /// What it shows, for people.
+    pub title: String,
+    /// What is drawn.
+    pub drawing: Drawing,
+    /// Only these robots (`r5`) of each case; all where it is empty.
+    pub robots: Vec<String>,
+    /// Only these cases; all where it is empty.
+    pub cases: Vec<String>,
+    /// When, s: snapshots, or the end of paths.
+    pub at: Vec<f64>,
+    /// Part of the map, m, or of time and values: left, right, bottom, top.
+    pub window: Option<[f64; 4]>,
+}
+
+/// Kinds of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drawing {
+    /// Paths.
+    Trajectories,
+    /// Where everything is at some times.
+    Snapshots,
+    /// Distance to what draws each robot, over time.
+    Errors,
+    /// phi over time.
+    Misalignments,
+    /// Distance to the leader over time.
+    LeaderDistances,
+    /// Curvature of the path over time.
+    Curvatures,
+    /// Forward and turning speed and heading over time.
+    Speeds,
+}
+
+/// A robot's place in a scenario.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Seat {
+    /// Unique: `r3`, or `<case>_r3` where there are several cases.
+    pub name: String,
+    /// Index of its case.
+    pub case: usize,
+    /// Place in its case or chain, from 1.
+    pub rank: usize,
+    /// Index of its leader among all seats, in chains.
+    pub leader: Option<usize>,
+}
+
+impl Scenario {
+    /// Name and label of each case: one without a name where there are no several.
+    #[must_use]
+    pub fn cases(&self) -> Vec<(&str, &str)> {
+        match &self.task {
+            Task::Regulating(task) => task.cases.iter().map(|case| (&*case.name, &*case.label)).collect(),
+            Task::GoalTracking(task) => task.cases.iter().map(|case| (&*case.name, &*case.label)).collect(),
+            Task::Directed(_) | Task::Nearest(..) => vec![("", &*self.name)],
+            Task::Launch(_) => Vec::new(),
+        }
+    }
+
+    /// All robots, by case and rank.
+    #[must_use]
+    pub fn seats(&self) -> Vec<Seat> {
+        let (count, is_chain) = match &self.task {
+            Task::Regulating(task) => (task.starts.len(), false),
+            Task::GoalTracking(task) => (task.robots.len(), false),
+            Task::Directed(task) => (task.chain.robots.len(), true),
+            Task::Nearest(chain, _) => (chain.robots.len(), true),
+            Task::Launch(_) => (0, false),
+        };
+        let mut seats = Vec::new();
+        let cases = self.cases();
+        for (case, (name, _)) in cases.iter().enumerate() {
+            for rank in 1..=count {
+                let name = if cases.len() > 1 { format!("{name}_r{rank}") } else { format!("r{rank}") };
+                let leader = (is_chain && rank > 1).then(|| seats.len() - 1);
+                seats.push(Seat { name, case, rank, leader });
+            }
+        }
+        seats
+    }
+
+    /// The zones of a chain.
+    #[must_use]
+    pub fn zoning(&self) -> Option<&Zoning> {
+        match &self.task {
+            Task::Directed(task) => Some(&task.chain.law.zoning),
+            Task::Nearest(chain, _) => Some(&chain.zoning),
+            _ => None,
+        }
+    }
+}

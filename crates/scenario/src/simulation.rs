@@ -1,0 +1,229 @@
+//! Running a scenario.
+
+use crate::law::ChosenLaw;
+use crate::{GoalLaw, Scenario, Task};
+use trench_formation::Vector2;
+use trench_formation::hull::{ApparentObstacle, Obstacle};
+use trench_formation::kinematics::PointState;
+use trench_formation::laws::Steered;
+use trench_formation::simulate::{ChainSimulation, GoalTeam, Regulation, ScenarioError, WaveGoals, ZonedChain};
+use trench_formation::trench::AnyTrench;
+
+/// Why a run cannot go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// See [`ScenarioError`].
+    #[error(transparent)]
+    Chain(#[from] ScenarioError),
+    /// A launch file is driven by node cores, not by this crate.
+    #[error("the scenario names a launch file, which has node cores of its own")]
+    Launch,
+    /// A number overflowed: gains too high for the step.
+    #[error("at {time} s the state of {robot} is no longer finite: make the step smaller, or the gains")]
+    Diverged {
+        /// s.
+        time: f64,
+        /// Which.
+        robot: String,
+    },
+}
+
+/// One robot at one time, SI units, frame `map`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// m.
+    pub position: Vector2<f64>,
+    /// m/s.
+    pub velocity: Vector2<f64>,
+    /// m/s^2; 0 for unicycles.
+    pub acceleration: Vector2<f64>,
+    /// rad: of the body, or of the velocity.
+    pub heading: f64,
+    /// m/s, forward.
+    pub speed: f64,
+    /// rad/s.
+    pub turn_rate: f64,
+    /// What draws it, m.
+    pub goal: Option<Vector2<f64>>,
+    /// Distance from its goal or nearest point, m; infinite before the first step of a chain.
+    pub deviation: f64,
+    /// phi of chapter 4, rad; 0 for double integrators.
+    pub misalignment: f64,
+    /// Integral of v^2 + omega^2 (Table 4.1); 0 for double integrators.
+    pub effort: f64,
+    /// V of the law and its rate.
+    pub lyapunov: [f64; 2],
+}
+
+enum Running {
+    Regulating(Vec<Regulation<ChosenLaw>>),
+    Goals(WaveGoals, Vec<(GoalTeam, GoalLaw)>),
+    Directed(Box<ZonedChain<AnyTrench>>),
+    Nearest(Box<ChainSimulation<AnyTrench>>),
+}
+
+/// A scenario under way.
+pub struct Simulation {
+    running: Running,
+    names: Vec<String>,
+    /// Last heading of each robot, for those that stand.
+    headings: Vec<f64>,
+    step: f64,
+    steps: u64,
+}
+
+impl Simulation {
+    /// Robots at their start.
+    ///
+    /// # Errors
+    /// Scenarios that are launch files; chains that cannot be built.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        let timing = scenario.timing;
+        let running = match &scenario.task {
+            Task::Regulating(task) => {
+                let robots = task.cases.iter().flat_map(|case| {
+                    let robot = |start: &crate::Start| {
+                        Regulation::new(case.law, start.0, task.goal, timing.integration, timing.step)
+                    };
+                    task.starts.iter().map(robot)
+                });
+                Running::Regulating(robots.collect())
+            }
+            Task::GoalTracking(task) => {
+                let team = || GoalTeam::new(task.robots.clone(), timing.integration, timing.step);
+                Running::Goals(task.goals, task.cases.iter().map(|case| (team(), case.law.clone())).collect())
+            }
+            Task::Directed(task) => {
+                Running::Directed(Box::new(ZonedChain::new(task.chain.clone(), timing.integration, timing.step)))
+            }
+            Task::Nearest(chain, _) => Running::Nearest(Box::new(ChainSimulation::new((**chain).clone())?)),
+            Task::Launch(_) => return Err(RunError::Launch),
+        };
+        let names: Vec<String> = scenario.seats().into_iter().map(|seat| seat.name).collect();
+        let headings = vec![0.0; names.len()];
+        Ok(Self { running, names, headings, step: timing.step, steps: 0 })
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// States that are no longer finite.
+    pub fn step(&mut self) -> Result<(), RunError> {
+        match &mut self.running {
+            Running::Regulating(robots) => robots.iter_mut().for_each(Regulation::step),
+            Running::Goals(goals, teams) => {
+                for (team, law) in teams {
+                    team.step(|index, time| goals.at(index, time), |robot, goal| law.steer(robot, goal));
+                }
+            }
+            Running::Directed(chain) => chain.step(),
+            Running::Nearest(chain) => chain.step()?,
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Seconds simulated.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.step
+    }
+
+    /// All robots now, in the order of [`Scenario::seats`], into `samples`. With `wholly` the law is asked again for accelerations
+    /// and Lyapunov functions.
+    ///
+    /// # Errors
+    /// States that are no longer finite.
+    pub fn sample(&mut self, wholly: bool, samples: &mut Vec<Sample>) -> Result<(), RunError> {
+        samples.clear();
+        match &self.running {
+            Running::Regulating(robots) => samples.extend(robots.iter().map(of_regulation)),
+            Running::Goals(goals, teams) => {
+                for (team, law) in teams {
+                    for (index, robot) in team.robots().iter().enumerate() {
+                        let goal = goals.at(index, team.time());
+                        let steered = law.steer(*robot, goal);
+                        let deviation = (goal.position - robot.position).norm();
+                        samples.push(of_point(*robot, Some(steered), Some(goal.position), deviation));
+                    }
+                }
+            }
+            Running::Directed(chain) => {
+                for (index, robot) in chain.robots().iter().enumerate() {
+                    let point = chain.point_of_attraction(index);
+                    let steered = wholly.then(|| chain.steered(index));
+                    samples.push(of_point(*robot, steered, Some(point), (point - robot.position).norm()));
+                }
+            }
+            Running::Nearest(chain) => {
+                for (index, robot) in chain.robots().iter().enumerate() {
+                    let action = chain.actions().get(index);
+                    let goal = action.and_then(|action| action.attraction);
+                    let deviation = chain.deviations().get(index).copied().unwrap_or(f64::INFINITY);
+                    samples.push(of_point(*robot, action.map(|action| action.steered), goal, deviation));
+                }
+            }
+        }
+        for ((sample, heading), name) in samples.iter_mut().zip(&mut self.headings).zip(&self.names) {
+            if !(sample.position.x + sample.position.y + sample.velocity.x + sample.velocity.y).is_finite() {
+                return Err(RunError::Diverged { time: self.steps as f64 * self.step, robot: name.clone() });
+            }
+            // A point without velocity looks where it last went.
+            if sample.heading.is_nan() {
+                sample.heading = *heading;
+            }
+            *heading = sample.heading;
+        }
+        Ok(())
+    }
+
+    /// Real obstacles and apparent ones, now.
+    #[must_use]
+    pub fn obstacles(&self) -> Option<(&[Obstacle], &[ApparentObstacle])> {
+        match &self.running {
+            Running::Nearest(chain) => Some((chain.real_obstacles(), chain.obstacles())),
+            _ => None,
+        }
+    }
+}
+
+fn of_regulation(robot: &Regulation<ChosenLaw>) -> Sample {
+    let (pose, twist, polar) = (robot.pose(), robot.twist(), robot.polar());
+    let lyapunov = trench_formation::laws::Lyapunov::of(polar, twist);
+    Sample {
+        position: pose.position(),
+        velocity: twist.v * pose.heading(),
+        acceleration: Vector2::zeros(),
+        heading: pose.theta,
+        speed: twist.v,
+        turn_rate: twist.omega,
+        goal: Some(robot.goal()),
+        deviation: polar.distance,
+        misalignment: polar.misalignment,
+        effort: robot.effort(),
+        lyapunov: [lyapunov.value, lyapunov.rate],
+    }
+}
+
+/// Below this speed a point has no heading, m/s.
+const STANDS: f64 = 1e-9;
+
+fn of_point(robot: PointState, steered: Option<Steered>, goal: Option<Vector2<f64>>, deviation: f64) -> Sample {
+    let PointState { position, velocity } = robot;
+    let acceleration = steered.map_or_else(Vector2::zeros, |steered| steered.acceleration);
+    let speed = velocity.norm();
+    let moves = speed > STANDS;
+    Sample {
+        position,
+        velocity,
+        acceleration,
+        heading: if moves { libm::atan2(velocity.y, velocity.x) } else { f64::NAN },
+        speed,
+        turn_rate: if moves { velocity.perp(&acceleration) / (speed * speed) } else { 0.0 },
+        goal,
+        deviation,
+        misalignment: 0.0,
+        effort: 0.0,
+        lyapunov: steered.map_or([0.0; 2], |steered| [steered.lyapunov, steered.lyapunov_rate]),
+    }
+}

@@ -1,0 +1,100 @@
+//! What is wrong with a scenario file is said with file, line, key, problem and remedy.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
+
+use trench_scenario::parse;
+
+fn file(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/../../config/scenarios/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// Replaces `old` in a scenario file and checks that the error names the line of `new` and has the texts expected.
+fn check(name: &str, old: &str, new: &str, expected: &[&str]) {
+    let text = file(name);
+    assert_eq!(text.matches(old).count(), 1, "{old:?} must stand once in {name}");
+    let text = text.replace(old, new);
+    let error = match parse(name, &text) {
+        Err(error) => error,
+        Ok(_) => panic!("{new:?} was accepted"),
+    };
+    let told = error.to_string();
+    assert!(told.starts_with(&format!("{name}:{}:", error.origin.line)) && error.origin.line > 0, "{told}");
+    for part in expected {
+        assert!(told.contains(part), "{told:?} lacks {part:?}");
+    }
+}
+
+const SEGMENT: &str = "{kind: line, points: [[-20.0, 0.0], [20.0, 0.0]]}";
+const TRENCH: &str = "{kind: hyperbolic, alpha: 10.0, a: 1.0}";
+
+#[test]
+fn segments() {
+    let graph = "{kind: graph, expression: \"sin(x\", from: -9.0, to: 9.0}";
+    check("7.11.yaml", SEGMENT, graph, &["7.11.yaml:9:", "segment.expression", "sin(x"]);
+    let unknown = "{kind: graph, expression: \"sni(x)\", from: -9.0, to: 9.0}";
+    check("7.11.yaml", SEGMENT, unknown, &["did you mean `sin`?"]);
+    let rough = "{kind: graph, expression: \"abs(x)\", from: -9.0, to: 9.0}";
+    check("7.11.yaml", SEGMENT, rough, &["segment.expression", "x ="]);
+    let crossing = "{kind: polyline, points: [[0, 0], [4, 0], [4, 4], [2, -4]]}";
+    check("7.11.yaml", SEGMENT, crossing, &["segment", "meets itself"]);
+    let empty = "{kind: arc, centre: [0, 0], radius: -1.0, start_angle: 0.0, sweep: 1.0}";
+    check("7.11.yaml", SEGMENT, empty, &["radius is -1"]);
+}
+
+#[test]
+fn zones() {
+    check("6.5.yaml", "rho_underbar: 1.0", "rho_underbar: -1.0", &["zoning.rho_underbar", "positive"]);
+    check(
+        "6.5.yaml",
+        "rho_hat: 4.0",
+        "rho_hat: 12.0",
+        &["zoning.rho = 10.0", "out of order", "rho_underbar < rho_hat"],
+    );
+    check("6.5.yaml", "m: 2", "m: 3", &["zoning.m = 3", "1 or 2"]);
+}
+
+#[test]
+fn robots() {
+    let first = "- {position: [26.0026, 29.7094], velocity: [0.0153, 0.0056]}";
+    check("6.5.yaml", first, "- {position: [.nan, 29.7], velocity: [0, 0]}", &["robots[0].position[0]", "not finite"]);
+    check("6.5.yaml", first, "- {position: [27.8, 19.9]}", &["robots[1]", "zone 1", "move one of them"]);
+    check("7.10.yaml", first, "- {position: [27.8, 19.9]}", &["robots[1]", "r1 and r2", "zone 1"]);
+    check("7.10_obstacles.yaml", first, "- {position: [30.2, 25.0]}", &["robots[0]", "inside obstacle 1"]);
+    check("6.5.yaml", first, "- {position: [26.0, 29.7], velocty: [0, 0]}", &["velocty", "did you mean `velocity`?"]);
+    let one = "- {position: [1.0, 9.0]}";
+    check("7.11.yaml", &format!("robots:\n{one}"), "robots: []", &["robots", "is empty", "at least one"]);
+    // r10 is lowest on the diagonal: a segment that begins farther up has no point of attraction for it.
+    check(
+        "6.5.yaml",
+        "[[-5.0, -5.0], [100.0, 100.0]]",
+        "[[5.0, 5.0], [100.0, 100.0]]",
+        &["no point of attraction", "(6.3)"],
+    );
+}
+
+#[test]
+fn obstacles() {
+    let rectangle = "- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]]}";
+    let covering = "- {polygon: [[-30.0, -2.0], [30.0, -2.0], [30.0, 2.0], [-30.0, 2.0]]}";
+    check("7.11.yaml", rectangle, covering, &["obstacles", "no qualified fragment"]);
+    check("7.11.yaml", rectangle, "- {disc: [0.0, 2.0], radius: 0.0}", &["obstacles[0].radius", "not positive"]);
+    check("7.11.yaml", rectangle, "- {disc: [.inf, 2.0], radius: 1.0}", &["obstacles[0].disc[0]", "not finite"]);
+    check("7.11.yaml", "{pole: 0.0, cut: 1.0", "{pole: 2.0, cut: 1.0", &["obstacle_potential.cut", "farther out"]);
+}
+
+#[test]
+fn potentials() {
+    check("7.11.yaml", TRENCH, "{kind: table, slope: [[0, 0], [1, .nan]]}", &["trench.slope[1][1]", "not finite"]);
+    check("7.11.yaml", TRENCH, "{kind: table, slope: [[0, 0], [1, 2], [0.5, 3]]}", &["trench.slope", "row 3"]);
+    check("7.11.yaml", TRENCH, "{kind: expression, potential: \"x^2 +\"}", &["trench.potential"]);
+    check("7.11.yaml", TRENCH, "{kind: expression, potential: \"2*abs(x) + 3*(1 - cos(x))\"}", &["trench", "trapped"]);
+    check("7.11.yaml", TRENCH, "{kind: hyperbolic, alpha: -1.0, a: 1.0}", &["trench.alpha", "not positive"]);
+}
+
+#[test]
+fn timing() {
+    check("7.11.yaml", "step: 0.001", "step: 0.0", &["step", "not positive"]);
+    check("7.11.yaml", "record_every: 0.05", "record_every: 0.0015", &["record_every", "multiple"]);
+    check("7.11.yaml", "method: semi_implicit_euler", "method: rk4", &["method", "semi_implicit_euler"]);
+    check("7.11.yaml", "kind: nearest_points", "kind: nearest_point", &["did you mean `nearest_points`?"]);
+    check("7.11.yaml", "draws: trajectories", "draws: trajectory", &["figures[0].draws"]);
+}

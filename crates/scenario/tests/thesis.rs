@@ -1,0 +1,177 @@
+//! The values of the thesis, as its errata have them, through the scenario files: an edit that breaks one is seen.
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
+
+use std::fs;
+use std::path::PathBuf;
+use trench_scenario::{CaseSummary, Measures, Sample, Scenario, Simulation, Summary, parse};
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../config/scenarios")
+}
+
+fn scenario(name: &str) -> Scenario {
+    let text = fs::read_to_string(folder().join(name)).unwrap();
+    parse(name, &text).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Runs a scenario and gives the samples at the times asked for besides.
+fn run_with(name: &str, times: &[f64]) -> (Summary, Vec<Vec<Sample>>) {
+    let scenario = scenario(name);
+    let mut simulation = Simulation::new(&scenario).unwrap();
+    let mut measures = Measures::new(&scenario);
+    let (mut samples, mut kept) = (Vec::new(), Vec::new());
+    let steps = (scenario.timing.duration / scenario.timing.step).round() as u64;
+    for step in 0..=steps {
+        if step > 0 {
+            simulation.step().unwrap();
+        }
+        simulation.sample(false, &mut samples).unwrap();
+        measures.take(&scenario, &simulation, &samples);
+        if times.iter().any(|time| (simulation.time() - time).abs() < 0.5 * scenario.timing.step) {
+            kept.push(samples.clone());
+        }
+    }
+    (measures.summary(&scenario), kept)
+}
+
+fn run(name: &str) -> CaseSummary {
+    run_with(name, &[]).0.cases.remove(0)
+}
+
+fn assert_near(got: impl IntoIterator<Item = f64>, wanted: &[f64], tolerance: f64) {
+    let got: Vec<f64> = got.into_iter().collect();
+    let near =
+        got.len() == wanted.len() && got.iter().zip(wanted).all(|(got, wanted)| (got - wanted).abs() < tolerance);
+    assert!(near, "{got:?}, not {wanted:?} within {tolerance}");
+}
+
+fn leader_distances(case: &CaseSummary) -> Vec<f64> {
+    case.robots.iter().filter_map(|robot| robot.leader_distance).collect()
+}
+
+#[test]
+fn every_file_reads() {
+    let mut count = 0;
+    for entry in fs::read_dir(folder()).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let scenario = scenario(&name);
+        assert!(!scenario.figures.is_empty(), "{name}");
+        count += 1;
+    }
+    assert!(count > 20);
+}
+
+#[test]
+fn table_4_1() {
+    let (summary, _) = run_with("4.4.4.yaml", &[]);
+    let efforts = summary.cases.iter().map(|case| case.robots[0].effort.unwrap());
+    assert_near(efforts, &[331.866_340, 129.886_055, 69.808_918, 63.899_791], 1e-5);
+}
+
+/// The first case still approaches as e^(-0.38 t) after 30 s.
+#[test]
+fn mismatch_of_4_4_3() {
+    for (name, resting) in [("4.4.3_case_one.yaml", 0.513_369_145_7), ("4.4.3_case_two.yaml", 2.393_369_533_0)] {
+        let robot = run(name).robots.remove(0);
+        assert_near([robot.resting_misalignment.unwrap()], &[resting], 1e-9);
+        assert_near([robot.misalignment.unwrap()], &[resting], 1e-5);
+        assert!(robot.error < 1e-9, "{robot:?}");
+    }
+}
+
+/// 4.4.2: one path whatever the gains, at the same misalignment.
+#[test]
+fn one_path_a_gain_ratio() {
+    let (_, kept) = run_with("4.4.2_law_3.9_lambda_1.yaml", &[2.0, 1.0, 0.5]);
+    // Gains of 0.5, 1 and 2: the same place after 2, 1 and 0.5 s. Samples come in order of time.
+    let places = [kept[2][0], kept[1][4], kept[0][8]].map(|sample| sample.position);
+    assert!((places[0] - places[1]).norm() < 1e-9 && (places[1] - places[2]).norm() < 1e-9, "{places:?}");
+}
+
+#[test]
+fn errors_of_5_6() {
+    let (_, kept) = run_with("5.6.yaml", &[0.0, 1.6, 3.2, 4.8, 6.4, 8.0]);
+    let error = |index: usize| kept.iter().map(move |samples| samples[index].deviation);
+    assert_near(error(4), &[2.378451, 0.929814, 0.130394, 0.167359, 0.057971, 0.020165], 1e-4);
+    assert_near(error(15 + 14), &[1.255212, 0.425783, 0.052716, 0.109309, 0.039687, 0.004094], 1e-4);
+}
+
+/// 5.5: the trench alone follows an accelerating goal point.
+#[test]
+fn comparison_of_5_5() {
+    let (summary, _) = run_with("5.5_comparison.yaml", &[]);
+    let errors: Vec<f64> = summary.cases.iter().map(|case| case.robots[0].error).collect();
+    assert!(errors[0] < 1e-6 && errors[1] > 0.5 && (0.005..0.2).contains(&errors[2]), "{errors:?}");
+}
+
+#[test]
+fn chain_of_6_5() {
+    let case = run("6.5.yaml");
+    let expected = [8.7725, 9.8873, 9.8957, 9.8966, 9.8969, 9.8971, 9.8973, 9.8974, 9.8974];
+    assert_near(leader_distances(&case), &expected, 1e-3);
+    assert_near([case.closest_pair.unwrap()], &[3.534], 1e-3);
+    assert!(case.robots.iter().all(|robot| robot.error < 1e-6));
+    assert_near(case.robots[0].position, &[70.0, 70.0], 1e-6);
+    assert_eq!(case.in_zone_1, 0.0);
+}
+
+#[test]
+fn chain_of_6_5_with_more_damping() {
+    let case = run("6.5_k_5.yaml");
+    assert_near(leader_distances(&case), &[9.985; 9], 2e-3);
+    assert_near([case.neutral_after.unwrap()], &[79.3], 0.1);
+}
+
+#[test]
+fn chain_of_7_10() {
+    let case = run("7.10.yaml");
+    let expected = [8.7714, 9.8873, 9.8957, 9.8966, 9.8969, 9.8971, 9.8973, 9.8974, 9.8974];
+    assert_near(leader_distances(&case), &expected, 2e-3);
+    assert_near(case.robots[0].position, &[100.0, 100.0], 1e-6);
+    assert_near([case.robots[9].position[0]], &[37.819], 2e-3);
+}
+
+#[test]
+fn chain_of_7_10_with_obstacles() {
+    let case = run("7.10_obstacles.yaml");
+    let centres = case.obstacles.iter().map(|obstacle| obstacle.least_gap + 1.0);
+    assert_near(centres, &[3.534, 2.660, 2.625, 2.732], 0.02);
+    let expected = [100.0, 92.940, 86.872, 79.811, 72.751, 65.690, 58.630, 51.569, 44.509, 37.448];
+    assert_near(case.robots.iter().map(|robot| robot.position[0]), &expected, 0.02);
+    assert!(case.in_zone_1 == 0.0 && case.closest_pair.unwrap() > 1.0, "{case:?}");
+    assert!(case.robots.iter().all(|robot| robot.error < 0.01), "{case:?}");
+}
+
+#[test]
+fn local_minima_and_remedies() {
+    assert_near(run("7.11.yaml").robots[0].position, &[1.0, 5.005], 0.01);
+    for name in ["7.12.yaml", "7.13.yaml", "7.15_apparent_obstacles.yaml"] {
+        let case = run(name);
+        assert!(case.robots[0].error < 1e-3 && case.robots[0].conforms_after.is_some(), "{name}: {case:?}");
+        assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.1), "{name}: {case:?}");
+    }
+    for name in ["7.13_without.yaml", "7.15_separate.yaml"] {
+        let case = run(name);
+        assert!(case.robots[0].error > 1.0, "{name}: {case:?}");
+    }
+}
+
+/// Fig. 9.1: through the corridor, without touching its walls, and on as a chain.
+#[test]
+fn corridor_of_9_1() {
+    let case = run("9.1_corridor.yaml");
+    assert!(case.conforms_after.is_some(), "{case:?}");
+    assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.5), "{case:?}");
+    assert!(case.robots.iter().all(|robot| robot.position[0] > 30.0) && case.in_zone_1 == 0.0, "{case:?}");
+}
+
+#[test]
+fn the_same_numbers_twice() {
+    let bits = || {
+        let (summary, kept) = run_with("7.12.yaml", &[10.0, 60.0]);
+        let samples =
+            kept.concat().into_iter().map(|sample| [sample.position.x.to_bits(), sample.position.y.to_bits()]);
+        (format!("{summary:?}"), samples.collect::<Vec<_>>())
+    };
+    assert_eq!(bits(), bits());
+}
