@@ -4,6 +4,7 @@ mod bag;
 mod check;
 mod launch;
 mod plot;
+mod rounded;
 mod sim;
 mod view;
 

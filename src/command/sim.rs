@@ -1,35 +1,42 @@
-//! `trench sim`: drives the node cores of a launch file in lock-step, without processes.
+//! `trench sim`: drives the node cores of a launch file in lock-step, or runs a scenario file, without processes.
+
+pub(super) mod scenario;
+mod sink;
 
 use super::launch::name_and_value;
 use super::say;
 use clap::Parser;
-use std::collections::BTreeMap;
+use sink::Sink;
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use trench_bag::run::{RunBuilder, SummaryOptions, summary};
-use trench_bag::{BagError, BagWriter, Stamp, TopicId, TopicType, WriteOptions};
+use trench_bag::BagError;
+use trench_bag::run::{Run, SummaryOptions, summary};
 use trench_core::{Advertise, Level, Source, Times};
 use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load_journalled, plan};
 use trench_journal::{Journals, Pace};
+use trench_scenario::{RunError, Scenario, Task};
 
 const EXIT_CODES: &str = "\
 Exit codes:
   0   the operator's verdict: the formation stands (or no operator took part)
   n   the exit code of the node that ended the run
   1   the run did not end within --seconds
-  2   the launch file, the arguments or a node's configuration is wrong";
+  2   the scenario, the launch file, the arguments or a node's configuration is wrong
+Scenarios end with 0 or 2.";
 
-/// Drives the node cores of a launch file in lock-step, faster than real time.
+/// Runs a scenario file headless, or drives the node cores of a launch file in lock-step, faster than real time.
 ///
+/// Scenario files (config/scenarios, docs/scenarios.md) are the simulations of the theory; which of the two a file is, is told by its
+/// content. Of launch files:
 /// The same files that `trench launch` starts as processes. Two runs are equal byte for byte. Unless the launch file is
 /// told otherwise (render:=true), cameras give the discs a detector would find instead of pixels.
-#[derive(Parser)]
+#[derive(Parser, Clone)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
-    /// The launch file, for example launch/square.launch.yaml.
+    /// The scenario, for example config/scenarios/7.10.yaml, or the launch file, for example launch/square.launch.yaml.
     file: PathBuf,
     /// Arguments of the launch file.
     #[arg(value_name = "NAME:=VALUE", value_parser = name_and_value)]
@@ -60,8 +67,9 @@ pub(crate) struct Arguments {
     quiet: bool,
 }
 
+/// What ends a simulation.
 #[derive(Debug, thiserror::Error)]
-enum SimError {
+pub(super) enum SimError {
     #[error(transparent)]
     Config(#[from] trench_config::ConfigError),
     #[error(transparent)]
@@ -70,10 +78,12 @@ enum SimError {
     Bus(#[from] BusError),
     #[error(transparent)]
     Bag(#[from] BagError),
+    #[error(transparent)]
+    Run(#[from] RunError),
     #[error("{0} exists already; give the journals another folder or remove it")]
     JournalsExist(String),
     #[error("{path}: {error}", path = path.display())]
-    Write { path: PathBuf, error: std::io::Error },
+    Io { path: PathBuf, error: std::io::Error },
 }
 
 /// Runs the subcommand.
@@ -88,6 +98,36 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
+    let Some((scenario, text)) = read(&arguments.file)? else { return drive(arguments) };
+    if let Task::Launch(launch) = &scenario.task {
+        let file = arguments.file.parent().unwrap_or(Path::new("")).join(&launch.file);
+        // What the command line says comes later, and wins.
+        let mut all = launch.arguments.clone();
+        all.extend(arguments.arguments.iter().cloned());
+        return drive(&Arguments { file, arguments: all, ..arguments.clone() });
+    }
+    let done = scenario::run(&scenario, &text, arguments.bag.as_deref(), !arguments.quiet)?;
+    write_csv(arguments, &done.run)?;
+    scenario::tell(&done.summary, arguments.json);
+    Ok(0)
+}
+
+/// A scenario file with its text; nothing for launch files, whose own reader says what is wrong with them.
+pub(super) fn read(file: &Path) -> Result<Option<(Scenario, String)>, SimError> {
+    let text = fs::read_to_string(file).map_err(|error| SimError::Io { path: file.to_owned(), error })?;
+    if !trench_scenario::is_scenario(&text) {
+        return Ok(None);
+    }
+    let scenario = trench_scenario::parse(&file.display().to_string(), &text)?;
+    Ok(Some((scenario, text)))
+}
+
+fn write_csv(arguments: &Arguments, run: &Run) -> Result<(), SimError> {
+    let Some(path) = &arguments.csv else { return Ok(()) };
+    fs::write(path, run.to_csv()).map_err(|error| SimError::Io { path: path.clone(), error })
+}
+
+fn drive(arguments: &Arguments) -> Result<u8, SimError> {
     let plan = plan(&arguments.file, &arguments.arguments.iter().cloned().collect())?;
     if let Some(folder) = arguments.journal.as_ref().filter(|folder| folder.exists()) {
         return Err(SimError::JournalsExist(folder.display().to_string()));
@@ -99,18 +139,12 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
         eprintln!("trench sim: {label} is no node of ours and is left out");
     }
     let mut lockstep = Lockstep::new(loaded.instances)?;
-    let bag = arguments.bag.as_deref().map(|folder| BagWriter::create(folder, WriteOptions::default())).transpose()?;
-    let mut watch =
-        Watch { builder: RunBuilder::default(), bag, topics: BTreeMap::new(), error: None, quiet: arguments.quiet };
+    let mut watch = Watch { sink: Sink::new(arguments.bag.as_deref())?, quiet: arguments.quiet };
     let (began, from) = (Instant::now(), lockstep.times().steady);
     let ending = lockstep.run(arguments.seconds, &mut watch);
     let (took, simulated) = (began.elapsed().as_secs_f64(), lockstep.times().steady.seconds_since(from));
-    watch.finish_bag()?;
-    let run = watch.builder.finish();
-    if let Some(path) = &arguments.csv {
-        let text = run.to_csv();
-        fs::write(path, text).map_err(|error| SimError::Write { path: path.clone(), error })?;
-    }
+    let run = watch.sink.finish()?;
+    write_csv(arguments, &run)?;
     let summary = summary(&run, &SummaryOptions::default());
     if arguments.json {
         say(format_args!("{:#}\n", serde_json::json!(summary)));
@@ -129,51 +163,13 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
 
 /// Shows, judges and records what happens.
 struct Watch {
-    builder: RunBuilder,
-    bag: Option<BagWriter>,
-    topics: BTreeMap<String, TopicId>,
-    error: Option<BagError>,
+    sink: Sink,
     quiet: bool,
-}
-
-impl Watch {
-    fn record(
-        &mut self,
-        at: Times,
-        topic: &str,
-        advertise: &Advertise,
-        source: Source,
-        cdr: &[u8],
-    ) -> Result<(), BagError> {
-        let Some(bag) = &mut self.bag else { return Ok(()) };
-        let id = match self.topics.get(topic) {
-            Some(&id) => id,
-            None => {
-                let id = bag.add_topic(topic, TopicType::from(advertise.type_info), advertise.qos)?;
-                self.topics.insert(topic.to_owned(), id);
-                id
-            }
-        };
-        let nanoseconds = u64::try_from(at.ros.0).unwrap_or(0);
-        let stamp = Stamp { log_time: nanoseconds, publish_time: nanoseconds, sequence: source.sequence as u32 };
-        bag.write(id, stamp, cdr)
-    }
-
-    fn finish_bag(&mut self) -> Result<(), BagError> {
-        match (self.error.take(), self.bag.take()) {
-            (Some(error), _) => Err(error),
-            (None, Some(bag)) => bag.finish(),
-            (None, None) => Ok(()),
-        }
-    }
 }
 
 impl Observer for Watch {
     fn published(&mut self, at: Times, topic: &str, advertise: &Advertise, source: Source, cdr: &[u8]) {
-        self.builder.take(topic, advertise.type_info.name, cdr);
-        if self.error.is_none() {
-            self.error = self.record(at, topic, advertise, source, cdr).err();
-        }
+        self.sink.take(at.ros.0, topic, (advertise.type_info, advertise.qos), source.sequence as u32, cdr);
     }
 
     fn logged(&mut self, at: Times, node: &str, level: Level, text: &str) {

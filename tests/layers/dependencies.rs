@@ -30,7 +30,18 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("testbed", &["trench_sim"]),
     (CAMERA, &["trench_bag"]),
     ("trench", &["trench_bag", "trench_config", "trench_core", "trench_harness", "trench_launch", "trench_msgs"]),
-    ("trench", &["trench_check", "trench_journal", "trench_plan", "trench_runtime", "trench_scenario", "trench_view"]),
+    (
+        "trench",
+        &[
+            "trench_check",
+            "trench_formation",
+            "trench_journal",
+            "trench_plan",
+            "trench_runtime",
+            "trench_scenario",
+            "trench_view",
+        ],
+    ),
 ];
 
 /// The one node that reads devices, image folders and bags itself: what it publishes is new to the system, and recorded.

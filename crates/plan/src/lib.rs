@@ -16,7 +16,7 @@ pub use file::{parse, segment};
 pub use message::{FormationError, plan_from_message};
 pub use plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
 pub use sample::sampled;
-pub use segment::{SegmentError, curve_from_message, shape_from_message};
+pub use segment::{SegmentError, curve_from_message, message_from_shape, shape_from_message};
 
 /// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
 const ON_SEGMENT: f64 = 1e-3;

@@ -71,7 +71,7 @@ pub fn shape_from_message(segment: &Segment) -> Result<CurveShape, SegmentError>
 }
 
 /// The message of a curve's description.
-pub(crate) fn message_from_shape(shape: &CurveShape, open_start: bool, open_end: bool) -> Segment {
+pub fn message_from_shape(shape: &CurveShape, open_start: bool, open_end: bool) -> Segment {
     let (kind, points, values) = match shape {
         CurveShape::Line(from, to) => (Segment::KIND_LINE, vec![*from, *to], vec![]),
         CurveShape::Polyline(corners) => (Segment::KIND_POLYLINE, corners.clone(), vec![]),

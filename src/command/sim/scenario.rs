@@ -1,0 +1,98 @@
+//! Runs scenario files: the theory headless, without node cores.
+
+use super::SimError;
+use super::sink::Sink;
+use crate::command::say;
+use std::fmt::{self, Display};
+use std::path::Path;
+use std::time::Instant;
+use trench_bag::run::Run;
+use trench_scenario::{CaseSummary, Measures, Scenario, Simulation, Summary};
+
+mod messages;
+
+/// A run and what is to be said of it.
+pub(crate) struct Done {
+    pub(crate) run: Run,
+    pub(crate) summary: Summary,
+}
+
+/// Runs a scenario to its end; `text` is its file, which goes into the bag.
+pub(crate) fn run(scenario: &Scenario, text: &str, bag: Option<&Path>, progress: bool) -> Result<Done, SimError> {
+    let mut simulation = Simulation::new(scenario)?;
+    let mut measures = Measures::new(scenario);
+    let mut sink = Sink::new(bag)?;
+    let publisher = messages::Publisher::new(scenario);
+    publisher.begin(text, &mut sink);
+    let (mut samples, timing) = (Vec::new(), scenario.timing);
+    let steps = (timing.duration / timing.step).round() as u64;
+    let (began, mut shown) = (Instant::now(), 0);
+    for step in 0..=steps {
+        if step > 0 {
+            simulation.step()?;
+        }
+        let is_recorded = step % timing.record_every == 0 || step == steps;
+        simulation.sample(is_recorded, &mut samples)?;
+        measures.take(scenario, &simulation, &samples);
+        if is_recorded {
+            publisher.publish(&simulation, &samples, &mut sink);
+        }
+        let tenth = step * 10 / steps.max(1);
+        if progress && tenth > shown {
+            shown = tenth;
+            eprint!("\r{:.0} of {:.0} s simulated", simulation.time(), timing.duration);
+        }
+    }
+    let took = began.elapsed().as_secs_f64();
+    if progress {
+        eprintln!("\r{:.1} s simulated in {took:.2} s: {:.0} times real time", timing.duration, timing.duration / took);
+    }
+    Ok(Done { run: sink.finish()?, summary: measures.summary(scenario) })
+}
+
+/// Says how it went.
+pub(crate) fn tell(summary: &Summary, json: bool) {
+    if json {
+        say(format_args!("{:#}\n", serde_json::json!(summary)));
+    } else {
+        say(Told(summary));
+    }
+}
+
+struct Told<'a>(&'a Summary);
+
+impl Display for Told<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Summary { name, section, duration, step, cases } = self.0;
+        writeln!(formatter, "{name} (section {section}): {duration} s in steps of {step} s")?;
+        cases.iter().try_for_each(|case| tell_case(formatter, case))
+    }
+}
+
+fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Result {
+    let seconds = |time: Option<f64>| time.map_or("never".to_owned(), |time| format!("after {time:.2} s"));
+    writeln!(formatter, "\n{}: all conform {}", case.label, seconds(case.conforms_after))?;
+    if let Some(closest) = case.closest_pair {
+        writeln!(formatter, "  closest pair {closest:.4} m, {:.3} s in zone 1", case.in_zone_1)?;
+    }
+    for obstacle in &case.obstacles {
+        writeln!(formatter, "  obstacle {}: no robot nearer than {:.4} m", obstacle.id, obstacle.least_gap)?;
+    }
+    writeln!(formatter, "  robot          x (m)     y (m)   error (m)  conforms (s)  leader (m)  phi (rad)  effort")?;
+    for robot in &case.robots {
+        let [x, y] = robot.position;
+        let optional =
+            |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
+        writeln!(
+            formatter,
+            "  {:<10} {x:>9.4} {y:>9.4} {:>11.6} {:>13} {:>11} {:>10} {:>7}",
+            robot.name,
+            robot.error,
+            robot.conforms_after.map_or("never".to_owned(), |time| format!("{time:.2}")),
+            optional(robot.leader_distance, 4),
+            optional(robot.misalignment, 5),
+            optional(robot.effort, 3),
+        )?;
+    }
+    Ok(())
+}
