@@ -3,13 +3,14 @@
 mod axes;
 mod errors;
 mod field;
+mod figures;
 mod output;
 mod snapshots;
 mod speeds;
 mod style;
 mod trajectories;
 
-use super::say;
+use super::{say, sim};
 use clap::Args;
 use output::Format;
 use std::fs;
@@ -17,14 +18,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use trench_bag::run::{CsvError, Run};
 use trench_bag::{BagError, BagReader};
+use trench_scenario::Scenario;
 
 /// Draws a run: trajectories, errors, snapshots and speeds over time.
 ///
 /// Reads a bag, or the table that `trench sim` writes, and writes trajectories, errors, snapshots and speeds as SVG and
-/// PNG pictures.
+/// PNG pictures. Of scenarios and their bags it draws the figures that the scenario file asks for.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// A bag (folder or .mcap file), or a table (.csv) of `trench sim`.
+    /// A bag (folder or .mcap file), a table (.csv) of `trench sim`, or a scenario (.yaml), which is run first.
     run: PathBuf,
     /// Where the pictures go; by default into the bag's folder, or beside the file.
     #[arg(long, value_name = "FOLDER")]
@@ -32,7 +34,8 @@ pub(crate) struct Arguments {
     /// What to write.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "svg,png")]
     format: Vec<Format>,
-    /// When to take snapshots, in seconds since the beginning of the run; by default six, evenly spaced.
+    /// When to take snapshots, in seconds since the beginning of the run; by default six,
+    /// between which the team goes equally far.
     #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
     at: Vec<f64>,
 }
@@ -49,7 +52,13 @@ enum PlotError {
     #[error("{}: no robot's pose is in it: neither /ground_truth/<robot>/odom nor /team_state was recorded", .0.display())]
     Empty(PathBuf),
     #[error("the picture {name} cannot be drawn: {problem}")]
-    Drawing { name: &'static str, problem: String },
+    Drawing { name: String, problem: String },
+    #[error(transparent)]
+    Simulation(#[from] sim::SimError),
+    #[error(transparent)]
+    Scenario(#[from] trench_config::ConfigError),
+    #[error("{}: node cores run in trench sim; record a bag there (--bag FOLDER) and plot that", .0.display())]
+    Launch(PathBuf),
 }
 
 /// The colours of robots in the order of their names, as style sheets write them.
@@ -74,11 +83,14 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn draw_all(arguments: &Arguments) -> Result<Vec<PathBuf>, PlotError> {
-    let run = read(&arguments.run)?;
+    let (run, scenario) = read(&arguments.run)?;
+    if let Some(scenario) = scenario.filter(|scenario| !scenario.figures.is_empty() && arguments.at.is_empty()) {
+        return draw_figures(arguments, &scenario, &run);
+    }
     let Some((first, last)) = run.span() else { return Err(PlotError::Empty(arguments.run.clone())) };
     // What came before the beginning of the run is not part of it.
     let span = (first.max(0.0).min(last), last);
-    let times = if arguments.at.is_empty() { evenly(span, 6) } else { arguments.at.clone() };
+    let times = if arguments.at.is_empty() { snapshots::telling_times(&run, span, 6) } else { arguments.at.clone() };
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.run));
     fs::create_dir_all(&folder).map_err(|source| PlotError::Io { path: folder.clone(), source })?;
     let pictures = [
@@ -89,33 +101,67 @@ fn draw_all(arguments: &Arguments) -> Result<Vec<PathBuf>, PlotError> {
     ];
     let mut paths = Vec::new();
     for (name, picture) in pictures {
-        let svg = picture.map_err(|problem| PlotError::Drawing { name, problem })?;
-        for &format in &arguments.format {
-            let path = folder.join(name).with_extension(format.extension());
-            let bytes = output::encode(&svg, format).map_err(|problem| PlotError::Drawing { name, problem })?;
-            fs::write(&path, bytes).map_err(|source| PlotError::Io { path: path.clone(), source })?;
-            paths.push(path);
-        }
+        save(arguments, &folder, (name, picture), &mut paths)?;
     }
     Ok(paths)
 }
 
-fn read(path: &Path) -> Result<Run, PlotError> {
+/// The figures that a scenario asks for, named by their numbers.
+fn draw_figures(arguments: &Arguments, scenario: &Scenario, run: &Run) -> Result<Vec<PathBuf>, PlotError> {
+    let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.run));
+    fs::create_dir_all(&folder).map_err(|source| PlotError::Io { path: folder.clone(), source })?;
+    let mut paths = Vec::new();
+    for figure in &scenario.figures {
+        let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '-' };
+        let name: String = format!("figure-{}", figure.number).chars().map(plain).collect();
+        let name = name.replace("--", "-");
+        save(arguments, &folder, (name.trim_end_matches('-'), figures::draw(figure, scenario, run)), &mut paths)?;
+    }
+    Ok(paths)
+}
+
+fn save(
+    arguments: &Arguments,
+    folder: &Path,
+    (name, picture): (&str, style::Picture),
+    paths: &mut Vec<PathBuf>,
+) -> Result<(), PlotError> {
+    let failed = |problem| PlotError::Drawing { name: name.to_owned(), problem };
+    let svg = picture.map_err(failed)?;
+    for &format in &arguments.format {
+        // Figure numbers have a dot, which is no extension.
+        let path = folder.join(format!("{name}.{}", format.extension()));
+        let bytes = output::encode(&svg, format).map_err(failed)?;
+        fs::write(&path, bytes).map_err(|source| PlotError::Io { path: path.clone(), source })?;
+        paths.push(path);
+    }
+    Ok(())
+}
+
+/// A run, and the scenario that it is of, if it is known.
+fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
+    if path.extension().is_some_and(|extension| extension == "yaml") {
+        let Some((scenario, text)) = sim::read(path)? else { return Err(PlotError::Launch(path.to_owned())) };
+        if matches!(scenario.task, trench_scenario::Task::Launch(_)) {
+            return Err(PlotError::Launch(path.to_owned()));
+        }
+        let done = sim::scenario::run(&scenario, &text, None, false)?;
+        return Ok((done.run, Some(scenario)));
+    }
     if path.extension().is_some_and(|extension| extension == "csv") {
         let text = fs::read_to_string(path).map_err(|source| PlotError::Io { path: path.to_owned(), source })?;
-        return Run::from_csv(&text).map_err(|source| PlotError::Table { path: path.to_owned(), source });
+        let run = Run::from_csv(&text).map_err(|source| PlotError::Table { path: path.to_owned(), source });
+        return Ok((run?, None));
     }
     let bag = BagReader::open(path)?;
     for damage in bag.damage() {
         eprintln!("trench plot: {damage}");
     }
-    Ok(Run::from_bag(&bag)?)
+    let run = Run::from_bag(&bag)?;
+    let scenario = run.scenario.as_deref().map(|text| trench_scenario::parse("/scenario", text)).transpose()?;
+    Ok((run, scenario))
 }
 
 fn default_folder(run: &Path) -> PathBuf {
     if run.is_dir() { run.to_owned() } else { run.parent().map_or_else(PathBuf::new, Path::to_owned) }
-}
-
-fn evenly((first, last): (f64, f64), count: u32) -> Vec<f64> {
-    (0..count).map(|index| first + (last - first) * f64::from(index) / f64::from(count - 1)).collect()
 }

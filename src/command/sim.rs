@@ -69,7 +69,7 @@ pub(crate) struct Arguments {
 
 /// What ends a simulation.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum SimError {
+pub(in crate::command) enum SimError {
     #[error(transparent)]
     Config(#[from] trench_config::ConfigError),
     #[error(transparent)]
@@ -113,7 +113,7 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
 }
 
 /// A scenario file with its text; nothing for launch files, whose own reader says what is wrong with them.
-pub(super) fn read(file: &Path) -> Result<Option<(Scenario, String)>, SimError> {
+pub(in crate::command) fn read(file: &Path) -> Result<Option<(Scenario, String)>, SimError> {
     let text = fs::read_to_string(file).map_err(|error| SimError::Io { path: file.to_owned(), error })?;
     if !trench_scenario::is_scenario(&text) {
         return Ok(None);

@@ -155,6 +155,10 @@ pub enum Drawing {
     Curvatures,
     /// Forward and turning speed and heading over time.
     Speeds,
+    /// Si(x) and Si(2x)/2 (4.2.1), which need no run.
+    SineIntegrals,
+    /// The stable wedge of 4.3.1, which needs no run.
+    StableWedge,
 }
 
 /// A robot's place in a scenario.

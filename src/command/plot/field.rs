@@ -20,8 +20,10 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
-/// What a legend says of things that are not robots.
-pub(super) const NOTES: &str = "× vertex,  - - - segment";
+/// What a legend says of things that are not robots: a table knows no segments, and the goal points' ways stand for them.
+pub(super) fn notes(run: &Run) -> &'static str {
+    if run.formation.is_some() { "× vertex,  - - - segment" } else { "× end of the goal point's way (grey)" }
+}
 
 /// The part of the map that a picture shows.
 #[derive(Clone)]
@@ -81,12 +83,16 @@ impl View {
     }
 }
 
-/// Draws segments (dashed) and the vertices that the robots make for (crosses).
+/// Draws segments (dashed), or where they are not known the goal points' ways, and the vertices that the robots make for (crosses).
 pub(super) fn draw_reference(chart: &mut FieldChart<'_, '_>, run: &Run) -> Result<(), String> {
     let formation = run.formation.iter().filter(|formation| formation.header.frame_id != "target");
     for queue in formation.flat_map(|formation| &formation.queues) {
         let series = DashedLineSeries::new(points_of(&queue.segment), 5 * UNIT, 4 * UNIT, line(REFERENCE, 1));
         chart.draw_series(series).map_err(text)?;
+    }
+    for track in run.robots.values().filter(|_| run.formation.is_none()) {
+        let way = track.goals.iter().map(|goal| (goal.position[0], goal.position[1]));
+        chart.draw_series(LineSeries::new(way, line(REFERENCE.mix(0.6), 1))).map_err(text)?;
     }
     let vertices = run.robots.keys().filter_map(|name| run.vertex(name));
     chart.draw_series(vertices.map(|[x, y]| Cross::new((x, y), 5 * UNIT, line(BLACK, 2)))).map_err(text)?;

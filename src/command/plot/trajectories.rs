@@ -1,6 +1,6 @@
 //! Where the robots went, with their bodies and headings at the snapshots.
 
-use super::field::{NOTES, View, draw_reference, draw_robot};
+use super::field::{View, draw_reference, draw_robot, notes};
 use super::style::{LEGEND, Picture, UNIT, colour, legend, line, picture, text};
 use plotters::prelude::*;
 use trench_bag::run::Run;
@@ -12,7 +12,7 @@ pub(super) fn draw(run: &Run, span: (f64, f64), times: &[f64]) -> Picture {
     let view = View::of(run);
     picture((WIDTH, view.height(WIDTH, true) + LEGEND as u32), |area| {
         let (top, field) = area.split_vertically(LEGEND);
-        legend(&top, run.robots.keys(), NOTES)?;
+        legend(&top, run.robots.keys(), notes(run))?;
         let mut chart = view.chart(&field, true)?;
         draw_reference(&mut chart, run)?;
         for (index, track) in run.robots.values().enumerate() {

@@ -39,6 +39,7 @@ enum Role {
     Formation,
     Assignment,
     RunState,
+    Scenario,
     Other,
 }
 
@@ -50,6 +51,7 @@ impl Role {
             ("/formation", "trench_msgs/msg/Formation") => Self::Formation,
             ("/assignment", "trench_msgs/msg/Assignment") => Self::Assignment,
             ("/run_state", "trench_msgs/msg/RunState") => Self::RunState,
+            ("/scenario", "std_msgs/msg/String") => Self::Scenario,
             ("/ground_truth/contacts", "diagnostic_msgs/msg/DiagnosticArray") => Self::Contacts,
             (name, "nav_msgs/msg/Odometry") => {
                 let robot = name.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
@@ -117,6 +119,7 @@ impl RunBuilder {
                 }
             }
             Role::Formation => self.run.formation = Some(Formation::decode(message).ok()?),
+            Role::Scenario => self.run.scenario = Some(trench_msgs::std_msgs::String::decode(message).ok()?.data),
             Role::Assignment => self.run.assignment = Some(Assignment::decode(message).ok()?),
             Role::RunState => {
                 let state = RunState::decode(message).ok()?;

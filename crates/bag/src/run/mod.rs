@@ -28,6 +28,8 @@ pub struct Run {
     pub formation: Option<Formation>,
     /// The last assignment.
     pub assignment: Option<Assignment>,
+    /// The scenario file that was simulated.
+    pub scenario: Option<String>,
     /// The last run state.
     pub state: Option<RunState>,
     /// Who touched whom, by time: known from the ground truth of a simulation alone.

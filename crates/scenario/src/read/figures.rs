@@ -4,7 +4,7 @@ use crate::scenario::{Drawing, Figure, Scenario, Task};
 use trench_config::yaml::Node;
 use trench_config::{ConfigError, did_you_mean};
 
-const DRAWINGS: [(&str, Drawing); 7] = [
+const DRAWINGS: [(&str, Drawing); 9] = [
     ("trajectories", Drawing::Trajectories),
     ("snapshots", Drawing::Snapshots),
     ("errors", Drawing::Errors),
@@ -12,6 +12,8 @@ const DRAWINGS: [(&str, Drawing); 7] = [
     ("leader_distances", Drawing::LeaderDistances),
     ("curvatures", Drawing::Curvatures),
     ("speeds", Drawing::Speeds),
+    ("sine_integrals", Drawing::SineIntegrals),
+    ("stable_wedge", Drawing::StableWedge),
 ];
 
 pub(super) fn read(nodes: &[Node], scenario: &Scenario) -> Result<Vec<Figure>, ConfigError> {

@@ -1,0 +1,203 @@
+//! The field with segment, obstacles, paths and robots.
+
+use super::super::axes::short;
+use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::clip::clip;
+use super::select::{Selection, Shown};
+use crate::command::rounded::rounded;
+use plotters::chart::ChartContext;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use trench_formation::Vector2;
+use trench_formation::hull::{Outline, combine};
+use trench_scenario::{Scenario, Task};
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Room for the numbers and names of the axes, units.
+const LABELS: [u32; 2] = [58 * UNIT, 42 * UNIT];
+const MARGIN: u32 = 12 * UNIT;
+const OBSTACLE: RGBColor = RGBColor(150, 60, 40);
+
+/// The part of the map that is shown.
+#[derive(Clone, Copy)]
+pub(super) struct Field([f64; 4]);
+
+impl Field {
+    /// A window, or all that a selection does until `until` (s), with segment, goal and obstacles.
+    pub(super) fn of(window: Option<[f64; 4]>, scenario: &Scenario, selection: &Selection<'_>, until: f64) -> Self {
+        if let Some(window) = window {
+            return Self(window);
+        }
+        let paths =
+            selection.robots.iter().flat_map(|robot| path(robot, 0.0, until).into_iter().chain(goals(robot, until)));
+        let mut points: Vec<(f64, f64)> = paths.collect();
+        points.extend(team_goal(scenario));
+        if scenario.zoning().is_some() && selection.robots.len() > 1 {
+            points.extend(segment(scenario));
+        }
+        for outline in outlines(scenario) {
+            points.extend(outline.into_iter().flatten());
+        }
+        let bounds = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)))
+        };
+        let (left, right) = bounds(&mut points.iter().map(|point| point.0));
+        let (bottom, top) = bounds(&mut points.iter().map(|point| point.1));
+        if left > right {
+            return Self([0.0, 1.0, 0.0, 1.0]);
+        }
+        let size = (right - left).max(top - bottom).max(1e-3);
+        // Neither a stripe nor a tower.
+        let grow = |low: f64, high: f64, least: f64| {
+            let more = (0.5 * (least - (high - low))).max(0.0) + 0.04 * size;
+            (low - more, high + more)
+        };
+        let ((left, right), (bottom, top)) = (grow(left, right, 0.8 * size), grow(bottom, top, 0.22 * size));
+        Self([left, right, bottom, top])
+    }
+
+    /// The height, in units, of a map of this width with equal scales.
+    pub(super) fn height(self, width: u32) -> u32 {
+        let [left, right, bottom, top] = self.0;
+        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
+        (plot_width * (top - bottom) / (right - left)).round() as u32 + LABELS[1] + 2 * MARGIN
+    }
+
+    /// Draws everything until `until`; robots where they are then, if `bodies`.
+    pub(super) fn draw(
+        self,
+        area: &Area<'_>,
+        scenario: &Scenario,
+        selection: &Selection<'_>,
+        (until, bodies): (f64, bool),
+    ) -> Result<(), String> {
+        let window @ [left, right, bottom, top] = self.0;
+        let mut chart = ChartBuilder::on(area)
+            .margin(MARGIN)
+            .y_label_area_size(LABELS[0])
+            .x_label_area_size(LABELS[1])
+            .build_cartesian_2d(left..right, bottom..top)
+            .map_err(text)?;
+        let mut mesh = chart.configure_mesh();
+        mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
+        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(9).y_labels(9);
+        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+        mesh.x_desc("x (m)").y_desc("y (m)").draw().map_err(text)?;
+        for part in clip(&segment(scenario), window) {
+            let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));
+            chart.draw_series(dashes).map_err(text)?;
+        }
+        self.obstacles(&mut chart, scenario)?;
+        for robot in &selection.robots {
+            if matches!(scenario.task, Task::GoalTracking(_)) && !bodies {
+                for part in clip(&goals(robot, until), window) {
+                    chart.draw_series(LineSeries::new(part, line(REFERENCE, 1))).map_err(text)?;
+                }
+            }
+            for part in clip(&path(robot, 0.0, until), window) {
+                let step = part.len().div_ceil(3000).max(1);
+                chart
+                    .draw_series(LineSeries::new(
+                        part.into_iter().step_by(step),
+                        line(robot.colour, if bodies { 1 } else { 2 }),
+                    ))
+                    .map_err(text)?;
+            }
+        }
+        let inside = |point: &(f64, f64)| point.0 >= left && point.0 <= right && point.1 >= bottom && point.1 <= top;
+        let cross = team_goal(scenario).filter(inside);
+        chart.draw_series(cross.map(|point| Cross::new(point, 6 * UNIT, line(BLACK, 2)))).map_err(text)?;
+        for robot in selection.robots.iter() {
+            let at = if bodies { until } else { 0.0 };
+            let Some(pose) = robot.track.pose_at(at).filter(|pose| inside(&(pose.x, pose.y))) else { continue };
+            let size = if bodies { 4 } else { 3 };
+            chart.draw_series([Circle::new((pose.x, pose.y), size * UNIT, robot.colour.filled())]).map_err(text)?;
+            if bodies {
+                let reach = 0.03 * (right - left);
+                let tip = (pose.x + reach * pose.theta.cos(), pose.y + reach * pose.theta.sin());
+                let moves = pose.v.abs() > 1e-3;
+                chart
+                    .draw_series(moves.then(|| PathElement::new([(pose.x, pose.y), tip], line(BLACK.mix(0.8), 1))))
+                    .map_err(text)?;
+            }
+            let goal = robot.track.goal_at(at).map(|[x, y]| (x, y)).filter(inside);
+            let goal = goal.filter(|_| bodies && matches!(scenario.task, Task::GoalTracking(_)));
+            chart.draw_series(goal.map(|goal| Circle::new(goal, 5 * UNIT, line(robot.colour, 1)))).map_err(text)?;
+        }
+        chart.draw_series([Rectangle::new([(left, bottom), (right, top)], line(BLACK.mix(0.4), 1))]).map_err(text)?;
+        Ok(())
+    }
+
+    /// Obstacles filled, where their repulsion begins dashed, combined hulls outlined.
+    fn obstacles(self, chart: &mut Chart<'_, '_>, scenario: &Scenario) -> Result<(), String> {
+        let Task::Nearest(chain, _) = &scenario.task else { return Ok(()) };
+        let mut outline = |outline: &Outline<'_>, grown: f64, is_dashed: bool| {
+            let boundary: Vec<(f64, f64)> =
+                rounded(outline.points, outline.radius + grown).into_iter().map(|point| (point.x, point.y)).collect();
+            for part in clip(&boundary, self.0) {
+                let drawn = if is_dashed {
+                    chart
+                        .draw_series(DashedLineSeries::new(part, 3 * UNIT, 3 * UNIT, line(OBSTACLE.mix(0.6), 1)))
+                        .map(drop)
+                } else {
+                    chart.draw_series(LineSeries::new(part, line(OBSTACLE, 2))).map(drop)
+                };
+                drawn.map_err(text)?;
+            }
+            Ok::<_, String>(())
+        };
+        for obstacle in &chain.obstacles {
+            outline(&obstacle.shape.outline(), 0.0, false)?;
+        }
+        for apparent in combine(&chain.obstacles, chain.clearance).map_err(text)? {
+            outline(&apparent.shape.outline(), chain.potential.cut(), true)?;
+            if apparent.members.len() > 1 {
+                outline(&apparent.shape.outline(), 0.0, true)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn path(robot: &Shown<'_>, from: f64, until: f64) -> Vec<(f64, f64)> {
+    let poses = robot.track.poses.iter().filter(|pose| pose.time >= from && pose.time <= until + 1e-9);
+    poses.map(|pose| (pose.x, pose.y)).collect()
+}
+
+fn goals(robot: &Shown<'_>, until: f64) -> Vec<(f64, f64)> {
+    let goals = robot.track.goals.iter().filter(|goal| goal.time <= until + 1e-9);
+    goals.map(|goal| (goal.position[0], goal.position[1])).collect()
+}
+
+fn team_goal(scenario: &Scenario) -> impl Iterator<Item = (f64, f64)> {
+    let goal = match &scenario.task {
+        Task::Regulating(task) => Some(task.goal),
+        Task::Directed(task) => Some(task.chain.team_goal),
+        Task::Nearest(chain, _) => chain.team_goal,
+        Task::GoalTracking(_) | Task::Launch(_) => None,
+    };
+    goal.into_iter().map(|goal: Vector2<f64>| (goal.x, goal.y))
+}
+
+fn segment(scenario: &Scenario) -> Vec<(f64, f64)> {
+    let points = match &scenario.task {
+        Task::Directed(task) => match &task.segment {
+            trench_formation::curve::CurveShape::Line(from, to) => vec![*from, *to],
+            _ => Vec::new(),
+        },
+        Task::Nearest(chain, shape) => trench_plan::sampled(shape, &chain.segment, 0.0),
+        _ => Vec::new(),
+    };
+    points.into_iter().map(|point| (point.x, point.y)).collect()
+}
+
+/// Boundaries of the obstacles with their repulsive zones.
+fn outlines(scenario: &Scenario) -> Vec<Vec<Vec<(f64, f64)>>> {
+    let Task::Nearest(chain, _) = &scenario.task else { return Vec::new() };
+    let outline = |outline: Outline<'_>| {
+        let boundary = rounded(outline.points, outline.radius + chain.potential.cut());
+        vec![boundary.into_iter().map(|point| (point.x, point.y)).collect()]
+    };
+    chain.obstacles.iter().map(|obstacle| outline(obstacle.shape.outline())).collect()
+}
