@@ -48,6 +48,9 @@ pub enum PacketError {
     /// The packet names a robot beyond the last.
     #[error("robot {0} is beyond {last}", last = crate::MAX_ROBOTS - 1)]
     Robot(u8),
+    /// The packet may be relayed more often than it can name relays.
+    #[error("{0} relays are more than {limit}", limit = crate::MAX_RELAYS)]
+    Relays(u8),
     /// A key is in force, and the packet carries no tag.
     #[error("the packet is not authenticated")]
     Unauthenticated,
@@ -81,6 +84,7 @@ impl PacketError {
             Self::Kind(_) => "packet_kind",
             Self::Timer(_) => "packet_timer",
             Self::Robot(_) => "packet_robot",
+            Self::Relays(_) => "packet_relays",
             Self::Unauthenticated => "unauthenticated",
             Self::Tag => "tag",
         }

@@ -1,8 +1,5 @@
 //! Which packets are new: replays, duplicates and stragglers are not obeyed.
 
-/// A gap in the counters beyond this is a sender that began anew, not packets missed.
-const LARGEST_GAP: u64 = 1000;
-
 /// Without a key, a sender that begins anew with small counters is believed after this silence, in ns.
 const SESSION_SILENCE: u64 = 1_000_000_000;
 
@@ -23,24 +20,20 @@ pub struct Freshness {
 }
 
 impl Freshness {
-    /// Accepts a packet's counter at time `now` (ns of any monotonic clock), giving how many packets were missed
-    /// before it. `authenticated`: whether a tag vouches for the counter; then it may never go back, else only after a
-    /// second of silence.
+    /// Accepts a packet's counter at time `now` (ns of any monotonic clock). `authenticated`: whether a tag vouches for
+    /// the counter; then it may never go back, else only after a second of silence.
     ///
     /// # Errors
     /// When the packet is not new.
-    pub fn accept(&mut self, counter: u64, now: u64, authenticated: bool) -> Result<u64, Stale> {
-        let missed = match self.last {
-            None => 0,
-            Some((last, _)) if counter > last => match counter - last - 1 {
-                gap @ 0..=LARGEST_GAP => gap,
-                _ => 0,
-            },
-            Some((_, at)) if !authenticated && now.saturating_sub(at) >= SESSION_SILENCE => 0,
-            Some((last, _)) => return Err(Stale { counter, last }),
-        };
+    pub fn accept(&mut self, counter: u64, now: u64, authenticated: bool) -> Result<(), Stale> {
+        if let Some((last, at)) = self.last {
+            let anew = !authenticated && now.saturating_sub(at) >= SESSION_SILENCE;
+            if counter <= last && !anew {
+                return Err(Stale { counter, last });
+            }
+        }
         self.last = Some((counter, now));
-        Ok(missed)
+        Ok(())
     }
 
     /// The last counter accepted and when.
@@ -57,17 +50,17 @@ mod tests {
     #[test]
     fn counters_go_up_only() {
         let mut freshness = Freshness::default();
-        let mut check = |counter, now, authenticated, expected: Result<u64, u64>| {
+        let mut check = |counter, now, authenticated, expected: Result<(), u64>| {
             let result = freshness.accept(counter, now, authenticated).map_err(|stale| stale.last);
             assert_eq!(result, expected, "counter {counter}");
         };
-        check(100, 0, true, Ok(0));
+        check(100, 0, true, Ok(()));
         check(100, 1, true, Err(100));
         check(99, 2, true, Err(100));
-        check(104, 3, true, Ok(3));
-        check(1_000_000, 4, true, Ok(0));
+        check(104, 3, true, Ok(()));
+        check(1_000_000, 4, true, Ok(()));
         check(5, 3_000_000_000, true, Err(1_000_000));
-        check(5, 3_000_000_000, false, Ok(0));
+        check(5, 3_000_000_000, false, Ok(()));
         check(4, 3_000_000_001, false, Err(5));
     }
 }

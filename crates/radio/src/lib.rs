@@ -7,6 +7,7 @@
 //!
 //! Architecture invariant: pure. No clock, port or randomness; times come in from the caller.
 
+mod age;
 mod command;
 mod decoder;
 mod error;
@@ -15,15 +16,18 @@ mod freshness;
 mod key;
 mod link;
 mod packet;
+mod relays;
 mod telemetry;
 mod timer;
 
+pub use age::{AgeMeter, COUNTER_TICK, USUAL_AGE};
 pub use command::{Commands, MAX_ROBOTS, RobotSet};
 pub use decoder::StreamDecoder;
 pub use error::{ErrorCounts, LinkError, PacketError};
 pub use freshness::{Freshness, Stale};
 pub use key::{Key, KeyError};
 pub use link::{Ack, AckStatus, LinkFrame};
-pub use packet::{COUNTER_LIMIT, Packet, Payload, VERSION};
+pub use packet::{COUNTER_LIMIT, Packet, Payload, VERSION, relayed_once_more};
+pub use relays::{MAX_RELAYS, RELAY_SLOT, RelayList, Relaying};
 pub use telemetry::{Fault, MAX_RANGES, NOTHING_IN_RANGE, Ranges, Telemetry};
 pub use timer::{METRES_PER_STEP, SPEED_TIMES_TIMER, TIMER_FASTEST, TIMER_SLOWEST, WheelTimer, Wheels, wheel_speed};

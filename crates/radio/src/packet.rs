@@ -1,10 +1,10 @@
 //! What goes over the air: header, payload, authentication tag.
 
 use crate::key::TAG_LENGTH;
-use crate::{Commands, Key, PacketError, RobotSet, Telemetry};
+use crate::{Commands, Key, MAX_RELAYS, PacketError, RelayList, Relaying, RobotSet, Telemetry};
 
 /// The version of the protocol.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 
 /// Counters are below this: they have 48 bits.
 pub const COUNTER_LIMIT: u64 = 1 << 48;
@@ -14,6 +14,12 @@ const HEADER_LENGTH: usize = 8;
 
 /// Flag: a tag follows the payload.
 const FLAG_TAG: u8 = 1;
+
+/// Flags: how often the packet may be relayed.
+const FLAGS_LIMIT: u8 = 0b1110;
+
+/// The kind of packet that robots send; all others come from the base.
+const TELEMETRY: u8 = 3;
 
 /// What a packet says.
 #[expect(clippy::large_enum_variant, reason = "lives on the stack for one call; a box would allocate every cycle")]
@@ -34,7 +40,9 @@ pub enum Payload {
 pub struct Packet {
     /// How often it was relayed, 0 to 15. The one field a relay may change, so the tag does not cover it.
     pub relayed: u8,
-    /// Counts the sender's packets and never goes back: 48 bits.
+    /// Who passes it on.
+    pub relaying: Relaying,
+    /// Never goes back, 48 bits. The base's follow its clock in steps of [`crate::COUNTER_TICK`].
     pub counter: u64,
     /// What it says.
     pub payload: Payload,
@@ -48,10 +56,14 @@ impl Packet {
             Payload::Commands(_) => 0,
             Payload::EmergencyStop(_) => 1,
             Payload::Reset(_) => 2,
-            Payload::Telemetry(_) => 3,
+            Payload::Telemetry(_) => TELEMETRY,
         };
-        out.extend([VERSION << 4 | kind, if key.is_some() { FLAG_TAG } else { 0 }]);
+        let tag_flag = if key.is_some() { FLAG_TAG } else { 0 };
+        out.extend([VERSION << 4 | kind, tag_flag | self.relaying.limit() << 1]);
         out.extend_from_slice(&self.counter.to_le_bytes()[..6]);
+        if let Relaying::By(list) = self.relaying {
+            out.extend(list.to_bits().to_le_bytes());
+        }
         match &self.payload {
             Payload::Commands(commands) => commands.encode(out),
             Payload::EmergencyStop(robots) | Payload::Reset(robots) => out.extend(robots.0.to_le_bytes()),
@@ -88,11 +100,39 @@ impl Packet {
             }
         };
         let [c0, c1, c2, c3, c4, c5] = counter;
+        let kind = version_and_kind & 0x0f;
+        let (relaying, payload) = decode_relaying(kind, (flags & FLAGS_LIMIT) >> 1, payload)?;
         Ok(Self {
             relayed: flags >> 4,
+            relaying,
             counter: u64::from_le_bytes([c0, c1, c2, c3, c4, c5, 0, 0]),
-            payload: decode_payload(version_and_kind & 0x0f, payload)?,
+            payload: decode_payload(kind, payload)?,
         })
+    }
+}
+
+/// The packet's bytes as a relay sends them on.
+#[must_use]
+pub fn relayed_once_more(packet: &[u8]) -> Vec<u8> {
+    let mut packet = packet.to_vec();
+    if let Some(flags) = packet.get_mut(1) {
+        *flags = *flags & 0x0f | (*flags >> 4).saturating_add(1).min(15) << 4;
+    }
+    packet
+}
+
+/// Who passes a packet on, and what follows.
+fn decode_relaying(kind: u8, limit: u8, rest: &[u8]) -> Result<(Relaying, &[u8]), PacketError> {
+    if usize::from(limit) > MAX_RELAYS {
+        return Err(PacketError::Relays(limit));
+    }
+    match (limit, kind) {
+        (0, _) => Ok((Relaying::Direct, rest)),
+        (_, TELEMETRY) => Ok((Relaying::Anyone(limit), rest)),
+        _ => {
+            let (bits, rest) = rest.split_first_chunk::<2>().ok_or(PacketError::Length(rest.len()))?;
+            Ok((Relaying::By(RelayList::from_bits(u16::from_le_bytes(*bits), limit)), rest))
+        }
     }
 }
 
@@ -106,7 +146,7 @@ fn decode_payload(kind: u8, bytes: &[u8]) -> Result<Payload, PacketError> {
         0 => Commands::decode(bytes).map(Payload::Commands),
         1 => robots().map(Payload::EmergencyStop),
         2 => robots().map(Payload::Reset),
-        3 => Telemetry::decode(bytes).map(Payload::Telemetry),
+        TELEMETRY => Telemetry::decode(bytes).map(Payload::Telemetry),
         _ => Err(PacketError::Kind(kind)),
     }
 }

@@ -1,6 +1,6 @@
 //! What a robot reports about itself.
 
-use crate::{MAX_ROBOTS, PacketError};
+use crate::{MAX_ROBOTS, PacketError, RobotSet};
 
 /// Range sensors a robot can report.
 pub const MAX_RANGES: usize = 8;
@@ -9,7 +9,7 @@ pub const MAX_RANGES: usize = 8;
 pub const NOTHING_IN_RANGE: u8 = 255;
 
 /// Bytes of a telemetry payload without its ranges.
-const FIXED: usize = 22;
+const FIXED: usize = 27;
 
 /// Fault bits, the same as in trench_msgs/LinkStatus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -73,8 +73,12 @@ pub struct Telemetry {
     pub last_counter: u16,
     /// How long before this report it accepted that packet, in ms; 255: that or longer.
     pub last_age_ms: u8,
-    /// Packets it missed: gaps in their counters; wraps.
-    pub missed: u16,
+    /// How often that packet was relayed.
+    pub last_relayed: u8,
+    /// Packets of the base that it accepted; wraps. The base knows how many it sent.
+    pub received: u16,
+    /// The robots whose reports it heard lately, without a relay.
+    pub neighbours: RobotSet,
     /// Battery voltage in mV.
     pub battery_mv: u16,
     /// Strength in dBm at which it heard the last packet.
@@ -94,8 +98,9 @@ impl Telemetry {
     pub(crate) fn encode(&self, out: &mut Vec<u8>) {
         out.extend([self.robot, self.fault.0]);
         out.extend(self.last_counter.to_le_bytes());
-        out.push(self.last_age_ms);
-        out.extend(self.missed.to_le_bytes());
+        out.extend([self.last_age_ms, self.last_relayed]);
+        out.extend(self.received.to_le_bytes());
+        out.extend(self.neighbours.0.to_le_bytes());
         out.extend(self.battery_mv.to_le_bytes());
         out.extend(self.signal_dbm.to_le_bytes());
         out.extend(self.steps_left.to_le_bytes());
@@ -120,12 +125,14 @@ impl Telemetry {
             fault: Fault(fixed[1]),
             last_counter: pair(2),
             last_age_ms: fixed[4],
-            missed: pair(5),
-            battery_mv: pair(7),
-            signal_dbm: fixed[9] as i8,
-            steps_left: four(10) as i32,
-            steps_right: four(14) as i32,
-            uptime_ms: four(18),
+            last_relayed: fixed[5],
+            received: pair(6),
+            neighbours: RobotSet(four(8)),
+            battery_mv: pair(12),
+            signal_dbm: fixed[14] as i8,
+            steps_left: four(15) as i32,
+            steps_right: four(19) as i32,
+            uptime_ms: four(23),
             ranges: Ranges::new(ranges),
         })
     }

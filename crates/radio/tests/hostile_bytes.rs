@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use trench_radio::{
-    Commands, Key, LinkFrame, MAX_ROBOTS, Packet, PacketError, Payload, RobotSet, StreamDecoder, WheelTimer, Wheels,
+    Commands, Key, LinkFrame, MAX_ROBOTS, Packet, PacketError, Payload, Ranges, RelayList, Relaying, RobotSet,
+    StreamDecoder, Telemetry, WheelTimer, Wheels,
 };
 
 fn key() -> Key {
@@ -26,11 +27,16 @@ fn any_packet() -> impl Strategy<Value = Packet> {
         any::<u32>().prop_map(|set| Payload::EmergencyStop(RobotSet(set))),
         any::<u32>().prop_map(|set| Payload::Reset(RobotSet(set))),
     ];
-    (0..16u8, 0..trench_radio::COUNTER_LIMIT, payload).prop_map(|(relayed, counter, payload)| Packet {
-        relayed,
-        counter,
-        payload,
-    })
+    let relays = prop::collection::vec(0..32u8, 0..4).prop_map(|ids| Relaying::by(RelayList::new(&ids)));
+    let down = (relays, payload);
+    let report = (0..32u8, any::<u32>(), prop::collection::vec(any::<u8>(), 0..9)).prop_map(|(robot, set, ranges)| {
+        let (neighbours, ranges) = (RobotSet(set), Ranges::new(&ranges));
+        Payload::Telemetry(Telemetry { robot, neighbours, ranges, ..Telemetry::default() })
+    });
+    let asked = (0..4u8).prop_map(|limit| if limit == 0 { Relaying::Direct } else { Relaying::Anyone(limit) });
+    let up = (asked, report);
+    (0..16u8, 0..trench_radio::COUNTER_LIMIT, prop_oneof![down, up])
+        .prop_map(|(relayed, counter, (relaying, payload))| Packet { relayed, relaying, counter, payload })
 }
 
 fn bytes_of(packet: &Packet) -> Vec<u8> {
@@ -107,7 +113,7 @@ proptest! {
 
 #[test]
 fn errors_are_counted_by_kind() {
-    let packet = Packet { relayed: 0, counter: 1, payload: Payload::Reset(RobotSet::ALL) };
+    let packet = Packet { relayed: 0, relaying: Relaying::Direct, counter: 1, payload: Payload::Reset(RobotSet::ALL) };
     let good = line_of(&packet);
     let mut flipped = good.clone();
     flipped[1] ^= 0x01;
@@ -115,7 +121,7 @@ fn errors_are_counted_by_kind() {
     bytes.push(0);
     bytes.extend([9, 1, 0]);
     bytes.extend(flipped);
-    for body in [&[][..], &[0x20, 1, 2], &[0x1f], &[0x12, 1]] {
+    for body in [&[][..], &[0x10, 1, 2], &[0x2f], &[0x22, 1]] {
         trench_radio::framing::frame(body, &mut bytes);
     }
     let (seen, decoder) = received(&bytes, 7);

@@ -2,8 +2,8 @@
 #![expect(clippy::expect_used, clippy::panic, reason = "a test ends where its vector is missing")]
 
 use trench_radio::{
-    Ack, AckStatus, Commands, Fault, Key, LinkFrame, Packet, Payload, Ranges, RobotSet, StreamDecoder, Telemetry,
-    WheelTimer, Wheels,
+    Ack, AckStatus, Commands, Fault, Key, LinkFrame, Packet, Payload, Ranges, RelayList, Relaying, RobotSet,
+    StreamDecoder, Telemetry, WheelTimer, Wheels, relayed_once_more,
 };
 
 const DOCUMENT: &str = include_str!("../../../docs/protocols/radio.md");
@@ -53,18 +53,31 @@ fn two_robots() -> Payload {
     Payload::Commands(commands)
 }
 
+fn direct(counter: u64, payload: Payload) -> Packet {
+    Packet { relayed: 0, relaying: Relaying::Direct, counter, payload }
+}
+
 #[test]
 fn commands() {
-    check_downlink("commands", Packet { relayed: 0, counter: 0x0102_0304_0506, payload: two_robots() }, None);
-    check_downlink("commands with tag", Packet { relayed: 0, counter: 7, payload: two_robots() }, Some(&key()));
-    check_downlink("commands relayed twice", Packet { relayed: 2, counter: 7, payload: two_robots() }, Some(&key()));
+    check_downlink("commands", direct(0x0102_0304_0506, two_robots()), None);
+    check_downlink("commands with tag", direct(7, two_robots()), Some(&key()));
+    let relayed = Packet { relayed: 2, relaying: Relaying::By(RelayList::new(&[3, 17])), ..direct(7, two_robots()) };
+    check_downlink("commands relayed twice", relayed, Some(&key()));
+}
+
+#[test]
+fn a_relay_changes_what_the_tag_leaves_out() {
+    let relaying = Relaying::By(RelayList::new(&[3, 17]));
+    let (mut once, mut twice) = (Vec::new(), Vec::new());
+    Packet { relayed: 1, relaying, ..direct(7, two_robots()) }.encode(Some(&key()), &mut once);
+    Packet { relayed: 2, relaying, ..direct(7, two_robots()) }.encode(Some(&key()), &mut twice);
+    assert_eq!(relayed_once_more(&once), twice);
 }
 
 #[test]
 fn stop_and_reset() {
-    let packet = |payload| Packet { relayed: 0, counter: 8, payload };
-    check_downlink("emergency stop", packet(Payload::EmergencyStop(RobotSet::ALL)), None);
-    check_downlink("reset", packet(Payload::Reset(RobotSet(0b1_0010))), Some(&key()));
+    check_downlink("emergency stop", direct(8, Payload::EmergencyStop(RobotSet::ALL)), None);
+    check_downlink("reset", direct(8, Payload::Reset(RobotSet(0b1_0010))), Some(&key()));
 }
 
 #[test]
@@ -74,7 +87,9 @@ fn telemetry() {
         fault: Fault(Fault::LOW_BATTERY.0 | Fault::MISSED_STEPS.0),
         last_counter: 0x0506,
         last_age_ms: 12,
-        missed: 300,
+        last_relayed: 1,
+        received: 300,
+        neighbours: RobotSet(0b1000),
         battery_mv: 7400,
         signal_dbm: -61,
         steps_left: -2,
@@ -82,7 +97,7 @@ fn telemetry() {
         uptime_ms: 3_600_000,
         ranges: Ranges::new(&[35, 255, 12, 80]),
     };
-    let packet = Packet { relayed: 0, counter: 9, payload: Payload::Telemetry(telemetry) };
+    let packet = Packet { relaying: Relaying::Anyone(3), ..direct(9, Payload::Telemetry(telemetry)) };
     let (mut bytes, mut line) = (Vec::new(), Vec::new());
     packet.encode(Some(&key()), &mut bytes);
     LinkFrame::Uplink { signal_dbm: -58, wait_ms: 3, packet: &bytes }.encode(&mut line);
@@ -113,10 +128,13 @@ fn acknowledgement() {
 fn twenty_robots_with_tag_fit_into_ten_milliseconds() {
     let mut commands = Commands { validity_ms: 80, ..Commands::default() };
     commands.wheels[..20].fill(Some(wheels(0.25, -0.25)));
-    let packet = Packet { relayed: 0, counter: 1, payload: Payload::Commands(commands) };
-    let (mut bytes, mut line) = (Vec::new(), Vec::new());
-    packet.encode(Some(&key()), &mut bytes);
-    LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
-    assert_eq!(line.len(), 111);
-    assert!(line.len() as f64 * 10.0 / 115_200.0 < 0.010);
+    for (relays, length) in [(&[][..], 111), (&[1, 2, 3], 113)] {
+        let relaying = Relaying::by(RelayList::new(relays));
+        let (mut bytes, mut line) = (Vec::new(), Vec::new());
+        Packet { relaying, ..direct(1, Payload::Commands(commands)) }.encode(Some(&key()), &mut bytes);
+        LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
+        assert_eq!(line.len(), length);
+        // With the delimiter that the host sends first.
+        assert!((line.len() + 1) as f64 * 10.0 / 115_200.0 < 0.010);
+    }
 }

@@ -1,5 +1,6 @@
 //! The radio base station: frames of the serial line become packets on the air and the other way round.
 
+use std::collections::VecDeque;
 use trench_radio::{Ack, AckStatus, LinkFrame, StreamDecoder, VERSION};
 
 /// Reports from robots are dropped while the line to the host is busy for longer than this, ns: old news would only
@@ -9,10 +10,14 @@ const LONGEST_BACKLOG: u64 = 50_000_000;
 /// Bytes of a packet's header.
 const HEADER_LENGTH: usize = 8;
 
+/// Reports that are remembered, to pass those that come again over relays on once.
+const REMEMBERED: usize = 64;
+
 /// The base station's state.
 #[derive(Debug, Clone, Default)]
 pub struct BaseStation {
     decoder: StreamDecoder,
+    passed_on: VecDeque<Box<[u8]>>,
 }
 
 impl BaseStation {
@@ -34,11 +39,25 @@ impl BaseStation {
     }
 
     /// The line to the host, after the packet of a robot was heard.
-    pub fn from_robot(&self, packet: &[u8], signal_dbm: i8, backlog: u64, line: &mut Vec<u8>) {
-        if backlog <= LONGEST_BACKLOG {
-            let wait_ms = u8::try_from(backlog / 1_000_000).unwrap_or(u8::MAX);
-            LinkFrame::Uplink { signal_dbm, wait_ms, packet }.encode(line);
+    pub fn from_robot(&mut self, packet: &[u8], signal_dbm: i8, backlog: u64, line: &mut Vec<u8>) {
+        // Copies differ in how often they were relayed, which the second byte's upper half counts.
+        let essence = |bytes: &[u8]| -> Box<[u8]> {
+            let mut bytes: Box<[u8]> = bytes.into();
+            if let Some(flags) = bytes.get_mut(1) {
+                *flags &= 0x0f;
+            }
+            bytes
+        };
+        let essence = essence(packet);
+        if backlog > LONGEST_BACKLOG || self.passed_on.contains(&essence) {
+            return;
         }
+        if self.passed_on.len() == REMEMBERED {
+            self.passed_on.pop_front();
+        }
+        self.passed_on.push_back(essence);
+        let wait_ms = u8::try_from(backlog / 1_000_000).unwrap_or(u8::MAX);
+        LinkFrame::Uplink { signal_dbm, wait_ms, packet }.encode(line);
     }
 
     /// The host's bytes as they were understood.

@@ -1,8 +1,9 @@
 //! The whole test bed: world, camera shutter, serial line, base station, air, firmware, in the order of time.
 
+use crate::air::{Air, Station};
 use crate::base_station::BaseStation;
 use crate::firmware::{Firmware, Sensors};
-use crate::medium::{Medium, MediumSetup};
+use crate::medium::MediumSetup;
 use crate::serial_line::SerialLine;
 use crate::setup::{BedSetup, Shutter};
 use crate::world::STEP;
@@ -64,14 +65,11 @@ pub struct Frame {
     pub obstacles: Vec<Obstacle>,
 }
 
-/// A packet on its way through the air. Ordered by arrival, then by when it was sent.
-type Flight = (u64, u64);
-
+/// A packet that a relay sends on when its turn comes.
 #[derive(Debug, Clone)]
-struct Flying {
-    /// Index of the robot, sender or receiver.
+struct Waiting {
     robot: usize,
-    signal_dbm: i8,
+    for_base: bool,
     packet: Arc<[u8]>,
 }
 
@@ -80,13 +78,12 @@ struct Flying {
 pub struct Bed {
     world: World,
     firmware: Vec<(u8, Firmware)>,
-    medium: Medium,
+    air: Air,
+    relayed: BTreeMap<(u64, u64), Waiting>,
+    relays: u64,
     base: BaseStation,
     from_host: SerialLine,
     to_host: SerialLine,
-    down: BTreeMap<Flight, Flying>,
-    up: BTreeMap<Flight, Flying>,
-    flights: u64,
     shutter: Shutter,
     lasers: Vec<usize>,
     laser: Laser,
@@ -107,6 +104,7 @@ enum Due {
     FrameReady,
     HostByte,
     AtRobot,
+    Relayed,
     Report(usize),
     AtBase,
     ToHost,
@@ -122,13 +120,12 @@ impl Bed {
         Self {
             world: World::new(start, body, field, obstacles, poses),
             firmware: robots.iter().map(|&(id, _)| (id, Firmware::new(id, key.clone(), start))).collect(),
-            medium: Medium::new(medium, Random::new(seed, 1)),
+            air: Air::new(medium, seed, start),
+            relayed: BTreeMap::new(),
+            relays: 0,
             base: BaseStation::default(),
             from_host: SerialLine::new(baud),
             to_host: SerialLine::new(baud),
-            down: BTreeMap::new(),
-            up: BTreeMap::new(),
-            flights: 0,
             shutter,
             lasers,
             laser,
@@ -161,7 +158,7 @@ impl Bed {
 
     /// The air becomes better or worse.
     pub fn set_medium(&mut self, setup: MediumSetup) {
-        self.medium.set(setup);
+        self.air.set(setup, self.world.now());
     }
 
     /// The host writes to the line at time `now`, up to which the bed must have been advanced.
@@ -191,7 +188,8 @@ impl Bed {
     /// Nothing comes out before this time unless bytes are written, ns.
     #[must_use]
     pub fn next_output(&self) -> Option<u64> {
-        let silent = |due: &Due| matches!(due, Due::Exposed | Due::AtRobot);
+        let relays = || self.firmware.iter().any(|(_, firmware)| firmware.is_relay(self.world.now()));
+        let silent = |due: &Due| matches!(due, Due::Exposed) || matches!(due, Due::AtRobot) && !relays();
         let frame = self.frame_ready();
         self.dues().filter(|(_, due)| !silent(due)).map(|(at, _)| at).chain([frame]).min()
     }
@@ -212,7 +210,6 @@ impl Bed {
     fn dues(&self) -> impl Iterator<Item = (u64, Due)> {
         let reports = self.reports.iter().enumerate().map(|(robot, at)| (*at, Due::Report(robot)));
         let line = |line: &SerialLine, due| line.next_arrival().map(|at| (at, due));
-        let flight = |flights: &BTreeMap<Flight, Flying>, due| flights.keys().next().map(|(at, _)| (*at, due));
         let next_scan = self.start + (self.scanned + 1) * self.laser.period;
         let scan = (!self.lasers.is_empty()).then_some((next_scan, Due::Scanned));
         [
@@ -220,8 +217,9 @@ impl Bed {
             scan,
             self.frames.front().map(|frame| (frame.ready_at, Due::FrameReady)),
             line(&self.from_host, Due::HostByte),
-            flight(&self.down, Due::AtRobot),
-            flight(&self.up, Due::AtBase),
+            self.air.next_at_robot().map(|at| (at, Due::AtRobot)),
+            self.relayed.keys().next().map(|(at, _)| (*at, Due::Relayed)),
+            self.air.next_at_base().map(|at| (at, Due::AtBase)),
             line(&self.to_host, Due::ToHost),
         ]
         .into_iter()
@@ -235,11 +233,11 @@ impl Bed {
             Due::Scanned => self.scan(at),
             Due::FrameReady => self.outputs.extend(self.frames.pop_front().map(Output::Frame)),
             Due::HostByte => self.hear_host(at),
-            Due::AtRobot => {
-                if let Some((_, flying)) = self.down.pop_first()
-                    && let Some((_, firmware)) = self.firmware.get_mut(flying.robot)
-                {
-                    firmware.receive(at, &flying.packet, flying.signal_dbm);
+            Due::AtRobot => self.hear_at_robot(at),
+            Due::Relayed => {
+                if let Some((_, waiting)) = self.relayed.pop_first() {
+                    let from = Station::Robot(waiting.robot);
+                    self.air.send(at, from, self.world.poses(), &waiting.packet, waiting.for_base);
                 }
             }
             Due::Report(robot) => self.report(at, robot),
@@ -291,9 +289,7 @@ impl Bed {
         self.base.from_host(&bytes, |packet| packets.push(packet.into()), &mut replies);
         self.to_host.write(now, &replies);
         for packet in packets {
-            for robot in 0..self.firmware.len() {
-                self.fly(now, robot, &packet, true);
-            }
+            self.air.send(now, Station::Base, self.world.poses(), &packet, false);
         }
     }
 
@@ -310,20 +306,21 @@ impl Bed {
         if let Some((_, firmware)) = self.firmware.get_mut(robot) {
             firmware.report(now, sensors, &mut packet);
         }
-        self.fly(now, robot, &packet.into(), false);
+        self.air.send(now, Station::Robot(robot), self.world.poses(), &packet.into(), true);
     }
 
-    fn fly(&mut self, now: u64, robot: usize, packet: &Arc<[u8]>, down: bool) {
-        let pose = self.world.poses()[robot];
-        let Some(arrival) = self.medium.carry(now, pose) else { return };
-        self.flights += 1;
-        let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
-        let flights = if down { &mut self.down } else { &mut self.up };
-        flights.insert((arrival.at, self.flights), flying);
+    fn hear_at_robot(&mut self, now: u64) {
+        let Some(flying) = self.air.pop_at_robot() else { return };
+        let Some((_, firmware)) = self.firmware.get_mut(flying.robot) else { return };
+        if let Some(relayed) = firmware.receive(now, &flying.packet, flying.signal_dbm) {
+            self.relays += 1;
+            let (robot, for_base, packet) = (flying.robot, relayed.for_base, relayed.packet.into());
+            self.relayed.insert((now + relayed.after, self.relays), Waiting { robot, for_base, packet });
+        }
     }
 
     fn hear_robot(&mut self, now: u64) {
-        let Some((_, flying)) = self.up.pop_first() else { return };
+        let Some(flying) = self.air.pop_at_base() else { return };
         let mut line = Vec::new();
         self.base.from_robot(&flying.packet, flying.signal_dbm, self.to_host.backlog(now), &mut line);
         self.to_host.write(now, &line);

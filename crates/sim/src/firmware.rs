@@ -1,9 +1,16 @@
 //! The firmware of a robot: obeys commands while they are valid, reports, stops by itself.
 
-use trench_radio::{Fault, Freshness, Key, Packet, Payload, Ranges, Telemetry, Wheels};
+use crate::relay::{Relay, Relayed};
+use trench_radio::{
+    AgeMeter, COUNTER_TICK, Fault, Freshness, Key, MAX_RELAYS, Packet, Payload, Ranges, Relaying, Telemetry, USUAL_AGE,
+    Wheels,
+};
 
 /// A command is obeyed for at most this long, whatever it says, ns.
 const AGE_LIMIT: u64 = 80_000_000;
+
+/// Without a packet of the base for this long it asks others to pass its reports on, ns.
+const UNHEARD: u64 = 300 * MILLISECOND;
 
 /// Below this voltage the battery is reported as low, mV.
 const LOW_BATTERY: u16 = 6800;
@@ -33,10 +40,13 @@ pub struct Firmware {
     key: Option<Key>,
     switched_on: u64,
     freshness: Freshness,
+    age: AgeMeter,
+    relay: Relay,
+    last_relayed: u8,
+    received: u64,
     wheels: Wheels,
     obey_until: u64,
     fault: Fault,
-    missed: u64,
     signal_dbm: i8,
     sent: u64,
     lost_steps_reported: f64,
@@ -52,10 +62,13 @@ impl Firmware {
             key,
             switched_on: now,
             freshness: Freshness::default(),
+            age: AgeMeter::default(),
+            relay: Relay::new(id),
+            last_relayed: 0,
+            received: 0,
             wheels: Wheels::STOP,
             obey_until: now,
             fault: Fault::default(),
-            missed: 0,
             signal_dbm: 0,
             sent: 0,
             lost_steps_reported: 0.0,
@@ -63,27 +76,43 @@ impl Firmware {
         }
     }
 
-    /// The radio heard a packet.
-    pub fn receive(&mut self, now: u64, packet: &[u8], signal_dbm: i8) {
-        let Ok(packet) = Packet::decode(packet, self.key.as_ref()) else {
+    /// The radio heard a packet: what is to be sent on, if anything.
+    pub fn receive(&mut self, now: u64, bytes: &[u8], signal_dbm: i8) -> Option<Relayed> {
+        let authentic = self.key.is_some();
+        let Ok(packet) = Packet::decode(bytes, self.key.as_ref()) else {
             self.rejected += 1;
-            return;
+            return None;
         };
         if matches!(packet.payload, Payload::Telemetry(_)) {
-            return;
+            return self.relay.pass_up(now, &packet, bytes, authentic);
         }
-        match self.freshness.accept(packet.counter, now, self.key.is_some()) {
-            Ok(missed) => self.missed += missed,
-            Err(_) => {
-                self.rejected += 1;
-                return;
-            }
+        if self.freshness.accept(packet.counter, now, authentic).is_err() {
+            // A relay's copy of what it has is as expected.
+            self.rejected += u64::from(packet.relayed == 0);
+            return None;
         }
-        self.signal_dbm = signal_dbm;
-        match packet.payload {
+        (self.signal_dbm, self.last_relayed) = (signal_dbm, packet.relayed);
+        self.received += 1;
+        let age = self.age.age(packet.counter, now);
+        self.hear_base(now, &packet.payload, age.saturating_sub(USUAL_AGE));
+        self.relay.pass_down(now, &packet, bytes)
+    }
+
+    /// Whether what it hears may be sent on to the base station.
+    #[must_use]
+    pub fn is_relay(&self, now: u64) -> bool {
+        self.relay.is_relay(now)
+    }
+
+    /// A packet of the base that is new, `late` ns later than usual.
+    fn hear_base(&mut self, now: u64, payload: &Payload, late: u64) {
+        match payload {
             Payload::Commands(commands) => {
-                if let Some(&Some(wheels)) = commands.wheels.get(usize::from(self.id)) {
-                    self.obey(now, wheels, u64::from(commands.validity_ms) * MILLISECOND);
+                let left = (u64::from(commands.validity_ms) * MILLISECOND).saturating_sub(late);
+                // What is too old when it comes ends nothing that is still valid.
+                let usable = late == 0 || left > 0;
+                if let Some(&Some(wheels)) = commands.wheels.get(usize::from(self.id)).filter(|_| usable) {
+                    self.obey(now, wheels, left);
                 }
             }
             Payload::EmergencyStop(robots) if robots.contains(self.id) => {
@@ -124,12 +153,15 @@ impl Firmware {
         }
         self.lost_steps_reported = sensors.lost_steps;
         let (last_counter, last_at) = self.freshness.last().unwrap_or_default();
+        let silence = now.saturating_sub(last_at);
         let telemetry = Telemetry {
             robot: self.id,
             fault,
             last_counter: last_counter as u16,
-            last_age_ms: u8::try_from(now.saturating_sub(last_at) / MILLISECOND).unwrap_or(u8::MAX),
-            missed: self.missed as u16,
+            last_age_ms: u8::try_from(silence / MILLISECOND).unwrap_or(u8::MAX),
+            last_relayed: self.last_relayed,
+            received: self.received as u16,
+            neighbours: self.relay.neighbours(now),
             battery_mv: sensors.battery_mv,
             signal_dbm: self.signal_dbm,
             steps_left: sensors.steps[0] as i64 as i32,
@@ -138,7 +170,11 @@ impl Firmware {
             ranges: sensors.ranges,
         };
         self.sent += 1;
-        let packet = Packet { relayed: 0, counter: self.sent, payload: Payload::Telemetry(telemetry) };
+        let asks = self.last_relayed > 0 || silence > UNHEARD;
+        let relaying = if asks { Relaying::Anyone(MAX_RELAYS as u8) } else { Relaying::Direct };
+        // A robot without a clock keeps the number of its starts instead: its counters never go back either.
+        let counter = self.switched_on / COUNTER_TICK + self.sent;
+        let packet = Packet { relayed: 0, relaying, counter, payload: Payload::Telemetry(telemetry) };
         packet.encode(self.key.as_ref(), out);
     }
 
@@ -160,7 +196,7 @@ mod tests {
 
     fn send(firmware: &mut Firmware, now_ms: u64, counter: u64, payload: Payload, key: Option<&Key>) {
         let mut bytes = Vec::new();
-        Packet { relayed: 0, counter, payload }.encode(key, &mut bytes);
+        Packet { relayed: 0, relaying: Relaying::Direct, counter, payload }.encode(key, &mut bytes);
         firmware.receive(now_ms * MILLISECOND, &bytes, -60);
     }
 
@@ -208,15 +244,30 @@ mod tests {
             let moves = firmware.wheels(5001 * MILLISECOND) != Wheels::STOP;
             assert_eq!((moves, firmware.rejected()), (rejected == 0, rejected));
         };
-        check(6, Some(&key), 0);
+        let in_time = 5 + 4990 * MILLISECOND / COUNTER_TICK;
+        check(in_time, Some(&key), 0);
         check(5, Some(&key), 1);
         check(4, Some(&key), 1);
-        check(6, Some(&Key::new([2; 16])), 1);
-        check(6, None, 1);
+        check(in_time, Some(&Key::new([2; 16])), 1);
+        check(in_time, None, 1);
     }
 
     #[test]
-    fn reports_what_it_missed() {
+    fn packets_that_were_held_back_are_obeyed_for_less_or_not_at_all() {
+        // How late (ms) beyond the first packet's way, and for how long it is obeyed after that, ms.
+        for (late, obeyed) in [(0, 80), (19, 80), (50, 50), (120, 0), (5000, 0)] {
+            let mut firmware = Firmware::new(3, None, 0);
+            send(&mut firmware, 0, 1000, drive(0), None);
+            send(&mut firmware, 1000 + late, 1000 + 1000 * MILLISECOND / COUNTER_TICK, drive(80), None);
+            let moves = |ms: u64| firmware.clone().wheels((1000 + late + ms) * MILLISECOND) != Wheels::STOP;
+            assert_eq!(moves(0), obeyed > 0, "{late} ms late");
+            assert!(obeyed == 0 || moves(obeyed - 3), "{late} ms late");
+            assert!(!moves(obeyed + 3), "{late} ms late");
+        }
+    }
+
+    #[test]
+    fn reports_what_it_received() {
         let mut firmware = Firmware::new(3, None, 0);
         for counter in [1, 2, 5, 9] {
             send(&mut firmware, counter * 30, counter, drive(80), None);
@@ -232,7 +283,9 @@ mod tests {
             fault: Fault(Fault::LOW_BATTERY.0 | Fault::MISSED_STEPS.0),
             last_counter: 9,
             last_age_ms: 5,
-            missed: 5,
+            last_relayed: 0,
+            received: 4,
+            neighbours: RobotSet::default(),
             battery_mv: 6000,
             signal_dbm: -60,
             steps_left: -3,

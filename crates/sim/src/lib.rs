@@ -6,6 +6,7 @@
 //! Architecture invariant: pure and deterministic. Times are ns of a clock that the caller owns; chance comes from one
 //! seed; what happens does not depend on how often the bed is advanced.
 
+mod air;
 mod base_station;
 mod battery;
 mod bed;
@@ -13,6 +14,7 @@ pub mod camera;
 mod contact;
 mod firmware;
 mod history;
+mod interference;
 mod laser;
 mod medium;
 mod obstacle;
@@ -20,6 +22,7 @@ mod path;
 mod random;
 mod range_sensor;
 mod ray;
+mod relay;
 mod serial_line;
 mod setup;
 mod stepper;
@@ -31,12 +34,14 @@ pub use bed::{Bed, Frame, Output, Scan};
 pub use contact::{Field, Thing};
 pub use firmware::{Firmware, Sensors};
 pub use history::Truth;
+pub use interference::Bursts;
 pub use laser::Laser;
-pub use medium::{Arrival, Medium, MediumSetup};
+pub use medium::{Arrival, Medium, MediumSetup, Way};
 pub use obstacle::Obstacle;
 pub use path::{Ending, Path};
 pub use random::Random;
 pub use range_sensor::{DIRECTIONS as RANGE_DIRECTIONS, REACH as RANGE_REACH};
+pub use relay::Relayed;
 pub use serial_line::SerialLine;
 pub use setup::{BedSetup, Shutter, scattered};
 pub use stepper::{Motor, Wheel};

@@ -4,7 +4,8 @@
 use proptest::prelude::*;
 use trench_optics::Pose2;
 use trench_radio::{
-    AckStatus, Commands, Fault, LinkFrame, Packet, Payload, RobotSet, StreamDecoder, Telemetry, WheelTimer, Wheels,
+    AckStatus, COUNTER_TICK, Commands, Fault, LinkFrame, Packet, Payload, RelayList, Relaying, RobotSet, StreamDecoder,
+    Telemetry, WheelTimer, Wheels,
 };
 use trench_sim::{
     Bed, BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Output, Scan, Shutter, Thing, camera,
@@ -42,10 +43,19 @@ fn pose(x: f64, y: f64, theta: f64) -> Pose2 {
 }
 
 fn packet(counter: u64, payload: Payload) -> Vec<u8> {
+    relayed(Relaying::Direct, counter, payload)
+}
+
+fn relayed(relaying: Relaying, counter: u64, payload: Payload) -> Vec<u8> {
     let (mut bytes, mut line) = (Vec::new(), Vec::new());
-    Packet { relayed: 0, counter, payload }.encode(None, &mut bytes);
+    Packet { relayed: 0, relaying, counter, payload }.encode(None, &mut bytes);
     LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
     line
+}
+
+/// The counter of a packet that is sent so many ms after the start: counters follow the clock.
+fn at_ms(ms: u64) -> u64 {
+    1 + ms * MS / COUNTER_TICK
 }
 
 /// The same wheel speeds for robots 1 to `count`.
@@ -95,7 +105,7 @@ fn reports(outputs: &[Output]) -> (Vec<Telemetry>, usize) {
 
 #[test]
 fn robots_drive_stop_by_themselves_and_report() {
-    let lines: Vec<_> = (0..30).map(|k| (100 + 33 * k, drive(k + 1, 2, 0.05, 0.05))).collect();
+    let lines: Vec<_> = (0..30).map(|k| (100 + 33 * k, drive(at_ms(100 + 33 * k), 2, 0.05, 0.05))).collect();
     let (bed, outputs) = run(setup(&[pose(0.5, 0.5, 0.0), pose(0.5, 1.2, 0.3)]), &lines, 2500, &[]);
     let [first, second] = bed.world().poses() else { unreachable!() };
     // 29 intervals of 33 ms and 80 ms of validity: 1.037 s at the speed of the timer nearest to 0.05 m/s.
@@ -106,7 +116,8 @@ fn robots_drive_stop_by_themselves_and_report() {
     assert!((45..=50).contains(&telemetry.len()), "25 rounds of two robots less 3 %: {}", telemetry.len());
     let last = telemetry.iter().rfind(|report| report.robot == 1).unwrap();
     assert_eq!(last.fault, Fault::COMMAND_TIMEOUT);
-    assert_eq!(last.last_counter, 30);
+    assert_eq!(u64::from(last.last_counter), at_ms(100 + 33 * 29));
+    assert!((27..=30).contains(&last.received), "30 packets less 3 %: {}", last.received);
     assert!((f64::from(last.steps_left) - 1.037 * 0.05 / 4.2412e-4).abs() < 2.0);
     assert_eq!((last.ranges.as_slice().len(), last.battery_mv), (4, 8200));
 }
@@ -130,10 +141,11 @@ fn frames_come_a_period_apart_and_after_the_delay() {
 
 #[test]
 fn emergency_stop_latches_in_every_robot() {
-    let mut lines: Vec<_> = (0..60).map(|k| (33 * k, drive(2 * k + 1, 3, 0.07, 0.07))).collect();
-    lines.extend((0..5).map(|k| (500 + 50 * k, packet(1000 + k, Payload::EmergencyStop(RobotSet::ALL)))));
+    let mut lines: Vec<_> = (0..60).map(|k| (33 * k, drive(at_ms(33 * k), 3, 0.07, 0.07))).collect();
+    lines
+        .extend((0..5).map(|k| (500 + 50 * k, packet(at_ms(500 + 50 * k) + 1, Payload::EmergencyStop(RobotSet::ALL)))));
     // Commands that go on with higher counters than the stop's do not release it.
-    lines.extend((0..20).map(|k| (760 + 33 * k, drive(2000 + k, 3, 0.07, 0.07))));
+    lines.extend((0..20).map(|k| (760 + 33 * k, drive(at_ms(760 + 33 * k) + 2, 3, 0.07, 0.07))));
     let robots = [pose(0.5, 0.3, 0.0), pose(0.5, 0.8, 0.0), pose(0.5, 1.3, 0.0)];
     let (bed, _) = run(setup(&robots), &lines, 1800, &[]);
     for robot in bed.world().poses() {
@@ -145,7 +157,7 @@ fn emergency_stop_latches_in_every_robot() {
 fn bodies_block_each_other_and_say_so_once() {
     let mut setup = setup(&[pose(0.8, 0.5, 0.0), pose(1.1, 0.5, std::f64::consts::PI), pose(2.3, 1.0, 0.0)]);
     setup.medium = MediumSetup::IDEAL;
-    let lines: Vec<_> = (0..100).map(|k| (33 * k, drive(k + 1, 3, 0.06, 0.06))).collect();
+    let lines: Vec<_> = (0..100).map(|k| (33 * k, drive(at_ms(33 * k), 3, 0.06, 0.06))).collect();
     let (bed, outputs) = run(setup, &lines, 3500, &[]);
     let contacts: Vec<_> =
         outputs.iter().filter_map(|o| if let Output::Contact(c) = o { Some(c) } else { None }).collect();
@@ -165,17 +177,59 @@ fn an_ideal_motor_follows_at_once() {
     let mut honest = ideal.clone();
     ideal.body.motor = Motor::Ideal;
     honest.body.motor = Motor::HONEST;
-    let lines: Vec<_> = (0..30).map(|k| (33 * k, drive(k + 1, 1, 0.28, 0.28))).collect();
+    let lines: Vec<_> = (0..30).map(|k| (33 * k, drive(at_ms(33 * k), 1, 0.28, 0.28))).collect();
     let lost = |setup| run(setup, &lines, 1000, &[]).0.world().wheels(0).unwrap()[0].lost;
     assert_eq!(lost(ideal), 0.0);
     assert!(lost(honest) > 80.0);
+}
+
+/// Where robot 1 hears the base station, robot 2 hears robot 1 alone, robot 3 hears robot 2 alone.
+fn a_line_of_three() -> BedSetup {
+    let mut setup = setup(&[pose(0.5, 0.5, 0.0), pose(1.2, 0.5, 0.0), pose(1.9, 0.5, 0.0)]);
+    setup.medium = MediumSetup { reach_down: 1.0, reach_up: 1.0, reach_robots: 1.0, loss: 0.0, ..MediumSetup::HONEST };
+    setup
+}
+
+/// What each robot drove in 2 s, m, and the reports of each that came through.
+fn driven(relays: &[u8]) -> [(f64, usize); 3] {
+    let start = a_line_of_three();
+    let wheels = Wheels { left: WheelTimer::from_speed(0.06), right: WheelTimer::from_speed(0.06) };
+    let mut commands = Commands { validity_ms: 80, ..Commands::default() };
+    commands.wheels[1..=3].fill(Some(wheels));
+    let line = |ms: u64| relayed(Relaying::by(RelayList::new(relays)), at_ms(ms), Payload::Commands(commands));
+    let lines: Vec<_> = (0..60).map(|k| (100 + 33 * k, line(100 + 33 * k))).collect();
+    let (bed, outputs) = run(start.clone(), &lines, 2500, &[]);
+    let (telemetry, _) = reports(&outputs);
+    std::array::from_fn(|robot| {
+        let count = telemetry.iter().filter(|report| usize::from(report.robot) == robot + 1).count();
+        (bed.world().poses()[robot].x - start.robots[robot].1.x, count)
+    })
+}
+
+#[test]
+fn relays_reach_those_who_do_not_hear_the_base_station() {
+    let check = |relays: &[u8], reached: usize| {
+        for (robot, (way, heard)) in driven(relays).into_iter().enumerate() {
+            if robot < reached {
+                assert!((0.115..0.125).contains(&way), "relays {relays:?}, robot {}: {way} m", robot + 1);
+                // The first rounds are over before anyone is a relay.
+                assert!((20..=25).contains(&heard), "relays {relays:?}, robot {}: {heard} reports", robot + 1);
+            } else {
+                assert_eq!((way, heard), (0.0, 0), "relays {relays:?}, robot {}", robot + 1);
+            }
+        }
+    };
+    check(&[], 1);
+    check(&[1], 2);
+    check(&[1, 2], 3);
+    check(&[2], 1);
 }
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
     #[test]
     fn what_happens_does_not_depend_on_who_looks(also_at in prop::collection::vec(0..700 * MS, 0..200), speed in -0.3..0.3f64) {
-        let lines: Vec<_> = (0..15).map(|k| (20 + 37 * k, drive(k + 1, 2, speed, 0.2))).collect();
+        let lines: Vec<_> = (0..15).map(|k| (20 + 37 * k, drive(at_ms(20 + 37 * k), 2, speed, 0.2))).collect();
         let robots = [pose(0.4, 0.4, 0.0), pose(0.6, 0.55, 2.0)];
         let (bed, outputs) = run(setup(&robots), &lines, 700, &[]);
         let (watched, watched_outputs) = run(setup(&robots), &lines, 700, &also_at);
@@ -187,8 +241,8 @@ proptest! {
     fn nothing_comes_out_before_it_is_announced(steps in prop::collection::vec(1..60 * MS, 1..40)) {
         let mut bed = Bed::new(setup(&[pose(0.4, 0.4, 0.0), pose(1.6, 0.55, 2.0)]));
         let mut now = START;
-        for (counter, step) in steps.into_iter().enumerate() {
-            bed.write_serial(now, &drive(counter as u64 + 1, 2, 0.1, 0.2));
+        for step in steps {
+            bed.write_serial(now, &drive(at_ms((now - START) / MS), 2, 0.1, 0.2));
             let announced = bed.next_output().unwrap();
             prop_assert!(announced > now);
             now = now.max(announced - 1).min(now + step);

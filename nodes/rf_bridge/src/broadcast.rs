@@ -3,7 +3,7 @@
 use crate::core::RfBridge;
 use crate::robot::{Order, Robot};
 use trench_core::{Sink, Steady, Times};
-use trench_radio::{Commands, Payload, Wheels};
+use trench_radio::{Commands, Payload, USUAL_AGE, Wheels};
 
 impl RfBridge {
     pub(crate) fn driving(&self, now: Steady) -> bool {
@@ -37,7 +37,9 @@ impl RfBridge {
             return;
         }
         let driving = self.driving(at.steady);
-        let transport = self.downlink.duration(self.robots.len()) + self.tuning.radio_delay;
+        // Robots count as age what a packet takes beyond the usual, so that alone is subtracted here.
+        let usual = self.downlink.duration(self.robots.len()).max(USUAL_AGE as f64 * 1e-9);
+        let transport = usual + self.tuning.radio_delay;
         let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
         for robot in &mut self.robots {
             if !driving {
@@ -59,10 +61,11 @@ impl RfBridge {
     }
 
     pub(crate) fn transmit(&mut self, at: Times, payload: Payload, sink: &mut dyn Sink) {
-        if self.downlink.extend_promise() {
+        if self.downlink.extend_promise(at.steady) {
             self.checkpoint(sink);
         }
-        self.downlink.send(at.steady, payload, sink);
+        let relaying = self.relaying(at.steady);
+        self.downlink.send(at.steady, relaying, payload, sink);
     }
 
     pub(crate) fn checkpoint(&self, sink: &mut dyn Sink) {

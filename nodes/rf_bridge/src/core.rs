@@ -12,7 +12,7 @@ use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::RunState;
 use trench_msgs::std_msgs::Bool;
-use trench_radio::{ErrorCounts, StreamDecoder};
+use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
 /// The bridge.
 pub struct RfBridge {
@@ -24,6 +24,8 @@ pub struct RfBridge {
     pub(crate) downlink: Downlink,
     pub(crate) decoder: StreamDecoder,
     pub(crate) errors: ErrorCounts,
+    /// Who passed the last packet on.
+    pub(crate) relays: RelayList,
     pub(crate) open: bool,
     pub(crate) running: bool,
     pub(crate) stop: EmergencyStop,
@@ -124,7 +126,7 @@ impl NodeCore for RfBridge {
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
             Event::Started => {
-                self.downlink.start(at.ros);
+                self.downlink.start(at);
                 self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
                 if self.stop.active() {
                     self.begin_stop(at, sink);

@@ -37,6 +37,9 @@ impl RfBridge {
         } else {
             self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", ")));
         }
+        let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
+        let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();
+        self.health.value("links", "relays", relays.join(", "));
         if self.refused_at.is_none_or(|at| now.seconds_since(at) > LATELY) {
             self.health.set("messages", Condition::Ok, "none was dropped lately");
         }

@@ -1,18 +1,36 @@
 //! Packets to the robots: counters that never go back, and a line that is never filled ahead.
 
 use std::collections::VecDeque;
-use trench_core::{RosTime, Sink, Steady};
+use trench_core::{Sink, Steady, Times};
 use trench_radio::framing::DELIMITER;
-use trench_radio::{COUNTER_LIMIT, Key, LinkFrame, Packet, Payload};
+use trench_radio::{COUNTER_LIMIT, COUNTER_TICK, Key, LinkFrame, Packet, Payload, Relaying};
 
 /// The one byte stream of the bridge.
 pub(crate) const STREAM: usize = 0;
 
-/// Counters are promised in blocks: a checkpoint every so many packets.
-const BLOCK: u64 = 4096;
+/// Counters are promised in blocks of a minute: a checkpoint so often.
+const BLOCK: u64 = 1 << 16;
 
 /// Packets whose time of sending is remembered.
 const REMEMBERED: usize = 128;
+
+/// A packet that was sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Sent {
+    /// The lowest 16 bits of its counter.
+    counter: u16,
+    /// When.
+    pub(crate) at: Steady,
+    /// Packets before it.
+    pub(crate) before: u64,
+}
+
+#[cfg(test)]
+impl Sent {
+    pub(crate) fn of_test(at: Steady, before: u64) -> Self {
+        Self { counter: 0, at, before }
+    }
+}
 
 /// The way down.
 #[derive(Debug, Clone)]
@@ -20,9 +38,12 @@ pub(crate) struct Downlink {
     key: Option<Key>,
     byte_time: f64,
     counter: u64,
+    /// The counter of the monotonic clock's zero.
+    origin: u64,
     promised: u64,
     free_at: Steady,
-    sent: VecDeque<(u16, Steady)>,
+    packets: u64,
+    sent: VecDeque<Sent>,
     packet: Vec<u8>,
     line: Vec<u8>,
 }
@@ -34,19 +55,27 @@ impl Downlink {
             key,
             byte_time: 10.0 / f64::from(baud.max(1)),
             counter: promised,
+            origin: promised,
             promised,
             free_at: Steady::default(),
+            packets: 0,
             sent: VecDeque::with_capacity(REMEMBERED),
             packet: Vec::new(),
             line: Vec::new(),
         }
     }
 
-    /// Starts at a counter that is beyond those of earlier lives even if they left nothing: milliseconds (nearly) of
-    /// the clock, of which far less than one is used a millisecond.
-    pub(crate) fn start(&mut self, ros: RosTime) {
-        let by_clock = ros.0.max(0).unsigned_abs() >> 20;
+    /// Starts at a counter that is beyond those of earlier lives even if they left nothing: that of the wall clock. From
+    /// there on counters follow the monotonic clock, so that robots can tell by them how old a packet is.
+    pub(crate) fn start(&mut self, at: Times) {
+        let by_clock = at.ros.0.max(0).unsigned_abs() / COUNTER_TICK;
         self.counter = self.counter.max(by_clock % COUNTER_LIMIT);
+        self.origin = self.counter.saturating_sub(at.steady.0 / COUNTER_TICK);
+    }
+
+    /// The counter of a packet sent now. It may be ahead of the clock where packets follow each other closely.
+    fn next_counter(&self, now: Steady) -> u64 {
+        (self.counter + 1).max(self.origin + now.0 / COUNTER_TICK)
     }
 
     /// The key, for the way up.
@@ -65,9 +94,9 @@ impl Downlink {
         self.byte_time * (19 + 4 * robots + robots.div_ceil(4) + tag) as f64
     }
 
-    /// When the packet was sent whose counter ends with these 16 bits.
-    pub(crate) fn sent_at(&self, counter: u16) -> Option<Steady> {
-        self.sent.iter().rev().find(|(sent, _)| *sent == counter).map(|(_, at)| *at)
+    /// The packet whose counter ends with these 16 bits.
+    pub(crate) fn sent(&self, counter: u16) -> Option<Sent> {
+        self.sent.iter().rev().find(|sent| sent.counter == counter).copied()
     }
 
     /// The first counter that no packet of this life carries, for the checkpoint.
@@ -76,20 +105,21 @@ impl Downlink {
     }
 
     /// Moves the promise on if the next packet would break it: then a checkpoint is due, before the packet goes out.
-    pub(crate) fn extend_promise(&mut self) -> bool {
-        let due = self.counter + 1 >= self.promised;
+    pub(crate) fn extend_promise(&mut self, now: Steady) -> bool {
+        let next = self.next_counter(now);
+        let due = next >= self.promised;
         if due {
-            self.promised = self.counter + 1 + BLOCK;
+            self.promised = next + BLOCK;
         }
         due
     }
 
     /// Sends a packet.
-    pub(crate) fn send(&mut self, now: Steady, payload: Payload, sink: &mut dyn Sink) {
-        self.counter += 1;
+    pub(crate) fn send(&mut self, now: Steady, relaying: Relaying, payload: Payload, sink: &mut dyn Sink) {
+        self.counter = self.next_counter(now);
         self.packet.clear();
         self.line.clear();
-        Packet { relayed: 0, counter: self.counter, payload }.encode(self.key.as_ref(), &mut self.packet);
+        Packet { relayed: 0, relaying, counter: self.counter, payload }.encode(self.key.as_ref(), &mut self.packet);
         // A delimiter first: garbage that the base station may have heard does not spoil this frame.
         self.line.push(DELIMITER);
         LinkFrame::Downlink { packet: &self.packet }.encode(&mut self.line);
@@ -98,14 +128,15 @@ impl Downlink {
         if self.sent.len() == REMEMBERED {
             self.sent.pop_front();
         }
-        self.sent.push_back((self.counter as u16, now));
+        self.sent.push_back(Sent { counter: self.counter as u16, at: now, before: self.packets });
+        self.packets += 1;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_core::{Action, Outbox};
+    use trench_core::{Action, Outbox, RosTime};
     use trench_radio::{RobotSet, StreamDecoder};
 
     /// The counters of the packets that were written.
@@ -125,19 +156,23 @@ mod tests {
     #[test]
     fn counters_go_up_across_lives_whatever_the_clock_says() {
         let (mut promised, mut highest) = (0, 0);
-        for clock in [RosTime(0), RosTime(1 << 40), RosTime(0), RosTime(-5)] {
+        for (clock, at_start) in [(0, 0), (1 << 40, 7_000_000_000), (0, 1 << 50), (-5, 3)] {
+            let clock = RosTime(clock);
             let mut outbox = Outbox::default();
             let mut downlink = Downlink::new(None, 115_200, promised);
-            downlink.start(clock);
+            downlink.start(Times { ros: clock, steady: Steady(at_start) });
             for at in 0..5000 {
-                if downlink.extend_promise() {
+                let now = Steady(at_start + at * 20_000_000);
+                if downlink.extend_promise(now) {
                     promised = downlink.promised();
                 }
-                downlink.send(Steady(at * 1_000_000), Payload::Reset(RobotSet::ALL), &mut outbox);
+                downlink.send(now, Relaying::Direct, Payload::Reset(RobotSet::ALL), &mut outbox);
             }
             let counters = counters(&outbox);
             assert_eq!(counters.len(), 5000);
-            assert!(counters[0] > highest && counters.windows(2).all(|pair| pair[1] == pair[0] + 1));
+            assert!(counters[0] > highest && counters.is_sorted_by(|earlier, later| earlier < later));
+            // Counters tell the time: 4999 intervals of 20 ms.
+            assert!((counters[4999] - counters[0]).abs_diff(4999 * 20_000_000 / COUNTER_TICK) <= 1);
             highest = counters[4999];
             assert!(highest < promised, "what was promised covers what was sent");
         }
@@ -146,7 +181,7 @@ mod tests {
     #[test]
     fn the_line_is_free_when_its_bytes_are_through() {
         let mut downlink = Downlink::new(None, 115_200, 0);
-        downlink.send(Steady(5_000_000), Payload::Reset(RobotSet::ALL), &mut Outbox::default());
+        downlink.send(Steady(5_000_000), Relaying::Direct, Payload::Reset(RobotSet::ALL), &mut Outbox::default());
         let expected = 5_000_000 + 18 * 86_805;
         assert!(downlink.free_at().0.abs_diff(expected) < 100, "{:?}", downlink.free_at());
     }

@@ -18,7 +18,7 @@ use trench_msgs::sensor_msgs::{BatteryState, Range};
 use trench_msgs::std_msgs::Bool;
 use trench_msgs::std_srvs::Trigger;
 use trench_msgs::{Message, service_info};
-use trench_radio::{ErrorCounts, StreamDecoder};
+use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
 pub(crate) const RUN_STATE: usize = 0;
 pub(crate) const EMERGENCY_STOP: usize = 1;
@@ -56,6 +56,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         downlink: Downlink::new(settings.key, settings.baud, promised),
         decoder: StreamDecoder::default(),
         errors: ErrorCounts::default(),
+        relays: RelayList::default(),
         open: false,
         running: false,
         stop: EmergencyStop::restored(stopped),

@@ -5,6 +5,7 @@
 //! | command accepted: writer, numbers, stamp | `robot` |
 //! | twist to wheel speeds, speeds below the motors' minimum | `drive`, `dither` |
 //! | one broadcast a camera frame, ages | `broadcast`, `downlink` |
+//! | relays for robots out of reach | `relays` |
 //! | emergency stop and reset | `stop`, `stopping` |
 //! | telemetry to topics | `uplink`, `report`, `monitor`, `odometry` |
 //!
@@ -20,6 +21,7 @@ mod drive;
 mod interface;
 mod monitor;
 mod odometry;
+mod relays;
 mod report;
 mod robot;
 mod settings;

@@ -4,6 +4,7 @@ use crate::dither::Dither;
 use crate::drive::wheels;
 use crate::monitor::Monitor;
 use crate::odometry::WheelOdometry;
+use crate::relays::Reach;
 use crate::settings::Tuning;
 use trench_core::{RosTime, Source, Steady, Times};
 use trench_msgs::geometry_msgs::Twist;
@@ -59,6 +60,7 @@ pub(crate) struct Robot {
     pub(crate) id: u8,
     pub(crate) monitor: Monitor,
     pub(crate) odometry: WheelOdometry,
+    pub(crate) reach: Reach,
     /// Commands that were too old when the line was free.
     pub(crate) expired: u64,
     master: Option<([u8; 16], Steady)>,
@@ -74,6 +76,7 @@ impl Robot {
             id,
             monitor: Monitor::default(),
             odometry: WheelOdometry::default(),
+            reach: Reach::default(),
             expired: 0,
             master: None,
             command: None,

@@ -33,6 +33,7 @@ pub(crate) struct Tuning {
     pub(crate) radio_delay: f64,
     pub(crate) heartbeat: f64,
     pub(crate) silence: f64,
+    pub(crate) relays: bool,
     pub(crate) needs_run_state: bool,
 }
 
@@ -66,6 +67,7 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("heartbeat", 0.1, "s, a frame goes out at least this often").range(0.01, 1.0),
         P::double("silence", 0.5, "s, silence after which a link is down, and a cmd_vel publisher has lost its robot")
             .range(0.01, 10.0),
+        P::bool("relays", true, "robots pass packets on to those that do not hear the base station"),
         P::bool("needs_run_state", true, "stand still unless /run_state says running"),
     ]
 }
@@ -87,6 +89,7 @@ impl Tuning {
             radio_delay: double("radio_delay")?,
             heartbeat: double("heartbeat")?,
             silence: double("silence")?,
+            relays: parameters.bool("relays")?,
             needs_run_state: parameters.bool("needs_run_state")?,
         })
     }

@@ -28,12 +28,13 @@ impl RfBridge {
         let Some(index) = self.robots.iter().position(|robot| robot.id == telemetry.robot) else {
             return self.errors.count("unknown_robot");
         };
-        let sent_at = self.downlink.sent_at(telemetry.last_counter);
+        let sent = self.downlink.sent(telemetry.last_counter);
         let robot = &mut self.robots[index];
         if robot.monitor.accept(packet.counter, at.steady, authenticated).is_err() {
             return;
         }
-        robot.monitor.update(at, telemetry, packet.relayed, sent_at);
+        robot.reach.heard(at.steady, packet.relayed);
+        robot.monitor.update(at, telemetry, packet.relayed, sent);
         robot.odometry.update(&telemetry, self.tuning.half_axle);
         self.report(at, index, &telemetry, sink);
     }

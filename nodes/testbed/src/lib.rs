@@ -10,6 +10,7 @@ mod detections;
 mod interface;
 mod messages;
 mod obstacles;
+mod radio;
 mod settings;
 
 pub use crate::core::Testbed;

@@ -1,12 +1,12 @@
 //! The test bed's parameters.
 
-use crate::obstacles;
+use crate::{obstacles, radio};
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
 use trench_optics::{Camera, Overhead, Pad, Pose2};
 use trench_radio::{Key, MAX_ROBOTS};
 use trench_sim::camera::{Appearance, Background};
-use trench_sim::{BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Random, Shutter, scattered};
+use trench_sim::{BedSetup, Body, Field, Laser, Motor, Obstacle, Random, Shutter, scattered};
 
 /// What the test bed is told. All of it is fixed while it runs.
 #[derive(Debug, Clone)]
@@ -38,6 +38,13 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("radio.delay_min", 0.003, "s, shortest time of a packet in the air").range(0.0, 1.0),
         P::double("radio.delay_max", 0.008, "s, longest").range(0.0, 1.0),
         P::double("radio.loss", 0.03, "share of the packets that a receiver misses").range(0.0, 1.0),
+        P::double_list("radio.antenna", &[0.0, 0.0], "m, where the base station's antenna is"),
+        P::double("radio.reach.down", 0.0, "m, how far robots hear the base station; 0: everywhere").range(0.0, 1e4),
+        P::double("radio.reach.up", 0.0, "m, how far the base station hears robots; 0: everywhere").range(0.0, 1e4),
+        P::double("radio.reach.robots", 0.0, "m, how far robots hear one another; 0: everywhere").range(0.0, 1e4),
+        P::double("radio.bursts.every", 0.0, "s, mean time between bursts of interference; 0: none").range(0.0, 1e6),
+        P::double("radio.bursts.length", 0.5, "s, mean length of a burst, in which nobody hears anybody")
+            .range(0.0, 1e4),
         P::string("key_file", "", "file with the robots' key, 32 hexadecimal digits; empty: robots obey anyone"),
         P::string("serial.link", "", "where the link to the base station's pseudo-terminal is made"),
         P::integer("serial.baud", 115_200, "bit/s at which the line is paced").range(1200.0, 4_000_000.0),
@@ -133,15 +140,7 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
         }
     };
     let poses = poses(parameters, field, body, &obstacles, seed)?;
-    let medium = MediumSetup {
-        delay_min: double("radio.delay_min")?,
-        delay_max: double("radio.delay_max")?,
-        loss: double("radio.loss")?,
-    };
-    if medium.delay_max < medium.delay_min {
-        let remedy = format!("write {} or more", medium.delay_min);
-        return Err(parameters.error("radio.delay_max", "is shorter than radio.delay_min", remedy));
-    }
+    let medium = radio::medium(parameters)?;
     let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;
     Ok(BedSetup {
         start: 0,

@@ -1,6 +1,8 @@
 //! Bridge and test bed together: twists in, robots that move, and the many ways in which they must stop.
 
 mod common;
+#[path = "cases/relays.rs"]
+mod relays;
 
 use common::{Loop, MS, Texts, strings};
 use trench_config::ParameterValue::{Bool, Double, String as Text};
