@@ -41,8 +41,9 @@ pub(crate) struct Arguments {
     /// Shows the simulated bed's ground truth and collisions too. (A bag shows what it has.)
     #[arg(long, conflicts_with = "bag")]
     ground_truth: bool,
-    /// The field's corners, m; by default what the overhead camera sees.
-    #[arg(long, value_names = ["X0", "Y0", "X1", "Y1"], num_args = 4, default_values_t = [0.0, 0.0, 2.48, 1.83], allow_negative_numbers = true)]
+    /// The field's corners, m; by default what the overhead camera of the small bed sees, or more where robots,
+    /// obstacles or the target are outside.
+    #[arg(long, value_names = ["X0", "Y0", "X1", "Y1"], num_args = 4, allow_negative_numbers = true)]
     field: Vec<f64>,
     /// Radii of the zones to draw around each robot, m.
     #[arg(long, value_name = "METRES", value_delimiter = ',')]
@@ -116,11 +117,13 @@ fn announce(address: SocketAddr) {
 
 /// What the page must know beforehand, as JSON.
 fn setup(arguments: &Arguments) -> Result<String, ViewError> {
-    let field = &arguments.field;
-    let is_area = field.iter().all(|number| number.is_finite()) && field.len() == 4;
-    if !is_area || field[0] == field[2] || field[1] == field[3] {
-        return Err(ViewError::Number("field"));
-    }
+    let field = match *arguments.field.as_slice() {
+        [x0, y0, x1, y1] if x0 != x1 && y0 != y1 && arguments.field.iter().all(|number| number.is_finite()) => {
+            Some([x0.min(x1), y0.min(y1), x0.max(x1), y0.max(y1)])
+        }
+        [] => None,
+        _ => return Err(ViewError::Number("field")),
+    };
     if !arguments.zones.iter().all(|radius| radius.is_finite() && *radius > 0.0) {
         return Err(ViewError::Number("zones"));
     }
@@ -128,7 +131,7 @@ fn setup(arguments: &Arguments) -> Result<String, ViewError> {
     Ok(serde_json::json!({
         "mode": if arguments.bag.is_some() { "bag" } else { "live" },
         "name": name,
-        "field": [field[0].min(field[2]), field[1].min(field[3]), field[0].max(field[2]), field[1].max(field[3])],
+        "field": field,
         "zones": arguments.zones,
         "colours": super::plot::colours(),
     })

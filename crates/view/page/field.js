@@ -54,11 +54,32 @@ export function zoomBy(factor) {
   svg.transition().duration(150).call(zoom.scaleBy, factor);
 }
 
+// What the camera of the small bed sees.
+const BED = [0, 0, 2.48, 1.83];
+let seen = BED;
+
+// The field's corners: as they were given, else the bed's, and as far as anything was ever seen.
+const corners = () => picture.setup?.field ?? seen;
+
+// Larger worlds show themselves by what is in them.
+export function grow() {
+  if (picture.setup?.field) return;
+  const places = [...picture.team.robots.map((robot) => robot.at), ...[...picture.obstacles, ...picture.hulls].flatMap((one) => one.points)];
+  if (picture.target) places.push(picture.target.at);
+  const known = places.filter(([x, y]) => x !== null && y !== null && Math.abs(x) < 1e4 && Math.abs(y) < 1e4);
+  const low = (axis) => Math.min(seen[axis], ...known.filter((at) => at[axis] < seen[axis]).map((at) => Math.floor((at[axis] - 0.2) * 5) / 5));
+  const high = (axis) => Math.max(seen[2 + axis], ...known.filter((at) => at[axis] > seen[2 + axis]).map((at) => Math.ceil((at[axis] + 0.2) * 5) / 5));
+  const now = [low(0), low(1), high(0), high(1)];
+  if (now.every((value, index) => value === seen[index])) return;
+  seen = now;
+  resize();
+}
+
 // The field with a margin, and room for the player below.
 export function resize() {
   const { width, height } = svg.node().getBoundingClientRect();
   size = [Math.max(width, 1), Math.max(height, 1)];
-  const [x0, y0, x1, y1] = picture.setup?.field ?? [0, 0, 2.48, 1.83];
+  const [x0, y0, x1, y1] = corners();
   const lower = picture.setup?.mode === "bag" ? 100 : 34;
   // The list of layers covers nothing where there is room beside it.
   const panel = document.getElementById("layers");
@@ -103,7 +124,7 @@ function drawGrid(k, x, y) {
 
 // Numbers along the floor's lower and left edges, or the window's where those are out of sight.
 function drawTicks(values, k, x, y, format, isBag) {
-  const [x0, y0, x1, y1] = picture.setup?.field ?? [0, 0, 2.48, 1.83];
+  const [x0, y0, x1, y1] = corners();
   const below = Math.min(Math.max(y - k * y0 + 16, 16), size[1] - (isBag ? 84 : 8));
   const left = Math.min(Math.max(x + k * x0 - 8, 34), size[0] - 8);
   const onFloor = ({ index, value }) => (index === 0 ? value >= x0 - 1e-9 && value <= x1 + 1e-9 : value >= y0 - 1e-9 && value <= y1 + 1e-9);

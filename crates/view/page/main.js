@@ -25,6 +25,7 @@ show(localStorage.getItem("trench.theme") ?? (matchMedia("(prefers-color-scheme:
 function draw() {
   const { changed } = picture;
   if (changed.has("setup") || changed.has("all")) field.resize();
+  field.grow();
   drawShapes();
   drawRobots();
   drawTrails(isShown("trails"));

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
-/// Namespaces of what the picture draws from its own topic.
+/// What the picture draws from its own topic: namespaces, or all that begin like this.
 const DRAWN_ELSEWHERE: [&str; 3] = ["robots/", "formation/", "apparent_obstacles"];
 /// The marker that tells how large a robot is.
 const BODY: &str = "robots/body";
@@ -44,7 +44,8 @@ impl Markers {
             if marker.ns == BODY && marker.scale.x.is_finite() && marker.scale.x > 0.0 {
                 self.body = Some(marker.scale.x);
             }
-            if DRAWN_ELSEWHERE.iter().any(|namespace| marker.ns.starts_with(namespace)) {
+            let is_drawn = |name: &str| marker.ns == name || (name.ends_with('/') && marker.ns.starts_with(name));
+            if DRAWN_ELSEWHERE.iter().any(|name| is_drawn(name)) {
                 continue;
             }
             changed |= self.put(now, marker);
