@@ -34,11 +34,44 @@ fn shown(arguments: &[&str]) -> Vec<Value> {
     let output = launch(Path::new("/"), &all);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let log = std::fs::read_to_string(run.path().join("log/launch.log")).unwrap();
-    let mut shown: Vec<Value> = log
-        .lines()
-        .filter_map(|line| line.split_once("] SHOW "))
-        .map(|(_, json)| serde_json::from_str(json).unwrap())
-        .collect();
+    let shown = log.lines().filter_map(|line| line.split_once("] SHOW "));
+    comparable(shown.map(|(_, json)| serde_json::from_str(json).unwrap()).collect(), run_folder)
+}
+
+/// What `--dry-run` says that the processes of main.launch.yaml would get, as `show` would have printed it.
+fn foretold(arguments: &[&str]) -> Vec<Value> {
+    let run = tempfile::tempdir().unwrap();
+    let run_folder = run.path().to_str().unwrap();
+    let file = launch_folder().join("main.launch.yaml");
+    let mut all = vec![file.to_str().unwrap(), "--dry-run", "--run-dir", run_folder];
+    all.extend(arguments);
+    let output = launch(Path::new("/"), &all);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(std::fs::read_dir(run.path()).unwrap().count(), 0, "a dry run leaves files");
+    let processes: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    comparable(processes.iter().map(as_shown).collect(), run_folder)
+}
+
+/// A process of the dry run as `show` prints itself.
+fn as_shown(process: &Value) -> Value {
+    let argv = &process["argv"].as_array().unwrap()[1..];
+    let pairs = argv.iter().zip(argv.iter().skip(1));
+    let files = pairs.filter(|(flag, _)| *flag == "--params-file").map(|(_, path)| path.as_str().unwrap());
+    let text = |path: &str| match &process["parameter_files"][path] {
+        Value::Null => json!(std::fs::read_to_string(path).unwrap()),
+        text => text.clone(),
+    };
+    let variable = |name: &str| process["env"].get(name).cloned().unwrap_or_else(|| json!(""));
+    json!({
+        "tag": variable("SHOW_TAG"),
+        "global": variable("SHOW_GLOBAL"),
+        "argv": argv,
+        "params": files.map(text).collect::<Vec<_>>(),
+    })
+}
+
+/// In the order and with the words of expected.json.
+fn comparable(mut shown: Vec<Value>, run_folder: &str) -> Vec<Value> {
     shown.iter_mut().for_each(|process| neutralise(process, run_folder));
     shown.sort_by_key(|process| process["tag"].as_str().unwrap().to_owned());
     shown
@@ -63,6 +96,7 @@ fn processes_get_what_the_real_ros2_launch_gives_them() {
     let expected: Value = serde_json::from_str(&text).unwrap();
     for (run, arguments) in [("default arguments", [].as_slice()), ("view:=true", &["view:=true"])] {
         assert_eq!(json!(shown(arguments)), expected["runs"][run], "{run}");
+        assert_eq!(json!(foretold(arguments)), expected["runs"][run], "{run}, as --dry-run foretells");
     }
 }
 

@@ -17,6 +17,14 @@ fn pixels_like(picture: &image::RgbImage, colour: [u8; 3]) -> usize {
     picture.pixels().filter(is_near).count()
 }
 
+/// A script that drags the slider to this time, s.
+fn seek(to: f64) -> String {
+    format!(
+        "{{ const s = document.getElementById('slider'); s.value = {to}; \
+         s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); }}"
+    )
+}
+
 #[test]
 fn a_bag_is_shown_and_played() {
     let folder = tempfile::tempdir().unwrap();
@@ -29,14 +37,8 @@ fn a_bag_is_shown_and_played() {
     assert_eq!(browser.ask("document.body.dataset.mode"), "bag");
 
     // A jump brings the past with it.
-    let seek = |to: f64| {
-        format!(
-            "{{ const s = document.getElementById('slider'); s.value = {to}; \
-             s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change')); }}"
-        )
-    };
     browser.ask(&seek(14.0));
-    browser.until("parseFloat(document.getElementById('slider').value) > 13.9");
+    browser.until("Math.abs(document.body.dataset.time - 14) < 1");
     assert_eq!(browser.ask("document.querySelectorAll('#drawing .robot').length"), 4);
     assert_eq!(browser.ask("document.querySelectorAll('.card').length"), 4);
     assert_eq!(browser.ask("document.querySelectorAll('#under .segment').length"), 2);
@@ -68,6 +70,33 @@ fn a_bag_is_shown_and_played() {
     browser.ask("document.getElementById('play').click()");
     browser
         .until("document.getElementById('play').textContent === '▶' && document.getElementById('slider').value > 20");
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+fn a_formation_is_drawn_where_its_target_carries_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let bag = folder.path().join("column");
+    record("column.launch.yaml", &["duration:=40.0", "tolerance:=9.0"], &bag);
+    let viewer = Viewer::start(&["--bag", bag.to_str().unwrap()], &[]);
+    let mut browser = Browser::open(&viewer.page(), (1440, 810));
+    browser.until("document.body.dataset.robots === '4' && document.querySelectorAll('#under .band').length === 1");
+    let place = |browser: &mut Browser, time: f64| -> f64 {
+        browser.ask(&seek(time));
+        browser.until(&format!("Math.abs(document.body.dataset.time - {time}) < 1"));
+        let matrix = "document.querySelector('#under .segment').parentNode.transform.baseVal.consolidate().matrix.e";
+        browser.until(&format!("{matrix} > 0"));
+        browser.ask(matrix).as_f64().unwrap()
+    };
+    // The target goes from x = 1.6 m to 3.4 m, beyond what the small bed's camera sees: the floor grows.
+    let (early, late) = (place(&mut browser, 6.0), place(&mut browser, 35.0));
+    assert!(late > early + 0.8, "{early} m, then {late} m");
+    assert!(browser.ask("document.querySelector('.floor').width.baseVal.value").as_f64().unwrap() > 2.9);
+    browser.ask("document.getElementById('play').click()");
+    browser.until("document.getElementById('play').textContent === '▶'");
+    let dark = "document.documentElement.dataset.theme === 'light' && document.getElementById('theme').click()";
+    browser.ask(dark);
+    assert!(pixels_like(&browser.picture("view-column"), [213, 94, 0]) > 500);
     assert_eq!(browser.complaints, Vec::<String>::new());
 }
 

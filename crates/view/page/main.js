@@ -41,6 +41,7 @@ function draw() {
   changed.clear();
   Object.assign(document.body.dataset, {
     frames: ++frames, robots: robots().length, run: picture.run?.state ?? "", mode: picture.setup?.mode ?? "", alarms: picture.alarms.length,
+    time: picture.player?.time ?? "",
   });
 }
 

@@ -16,7 +16,7 @@ export function drawTrails(isShown) {
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, ...size);
   if (!isShown) return;
-  Object.assign(context, { lineWidth: 2.4, lineJoin: "round", lineCap: "round" });
+  Object.assign(context, { lineWidth: 2.4, lineJoin: "round", lineCap: "butt" });
   for (const [robot, samples] of picture.trails) {
     context.strokeStyle = colour(robot);
     // Newer parts are drawn stronger, in steps.
