@@ -147,7 +147,7 @@ fn filter() -> SafetyFilter {
 }
 
 fn wish(v: f64, omega: f64) -> Wish {
-    Wish { twist: Twist { v, omega }, goal: None }
+    Wish { twist: Twist { v, omega }, goal: None, kept: None }
 }
 
 fn neighbour(x: f64, y: f64) -> Neighbour {
@@ -160,7 +160,7 @@ fn a_harmless_wish_passes_bit_for_bit() {
     let neighbours = [neighbour(1.0, 0.0)];
     let scene = Scene { neighbours: &neighbours, ..Scene::default() };
     let twist = Twist { v: 0.1 + 0.2, omega: -0.0 };
-    let filtered = filter().apply(Pose::default(), Twist::ZERO, Wish { twist, goal: None }, &scene);
+    let filtered = filter().apply(Pose::default(), Twist::ZERO, Wish { twist, goal: None, kept: None }, &scene);
     assert_eq!(filtered.acted, None);
     assert_eq!(filtered.twist.v.to_bits(), twist.v.to_bits());
     assert_eq!(filtered.twist.omega.to_bits(), twist.omega.to_bits());

@@ -9,10 +9,13 @@ use trench_formation::kinematics::Twist;
 use trench_formation::safety::{MovingOutline, Neighbour, Scene, Wish};
 use trench_msgs::msg::{LeaderState, RobotState};
 
+/// Seconds without a way round after which the side of the last one is forgotten.
+const FORGET: f64 = 2.0;
+
 impl Tick {
     /// The twist after the filter; `goal` is what a way round leads to.
     pub(crate) fn safe(
-        &self,
+        &mut self,
         at: Times,
         state: &RobotState,
         twist: Twist,
@@ -39,7 +42,14 @@ impl Tick {
             .collect();
         let scene = Scene { neighbours: &neighbours, obstacles: &obstacles, field: &self.settings.field };
         let now = Twist { v: state.v, omega: state.omega };
-        let filtered = self.settings.safety.apply(pose_of(state), now, Wish { twist, goal }, &scene);
+        // A law that goes by potentials is led round, not across: it keeps to the side that it took.
+        let kept = self.detour.filter(|_| self.settings.dynamic.is_some()).map(|(side, _)| side);
+        let filtered = self.settings.safety.apply(pose_of(state), now, Wish { twist, goal, kept }, &scene);
+        match filtered.side {
+            Some(side) => self.detour = Some((side, at.steady)),
+            None if self.detour.is_some_and(|(_, last)| at.steady.seconds_since(last) > FORGET) => self.detour = None,
+            None => {}
+        }
         if filtered.acted.is_some() {
             command.limits |= LeaderState::LIMIT_SAFETY;
         }

@@ -5,10 +5,11 @@ use crate::hold::Hold;
 use crate::inputs::Inputs;
 use crate::settings::Settings;
 use crate::{Deviation, Predictor};
-use trench_core::{RosTime, Times};
+use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
 use trench_formation::kinematics::{Limited, Pose, Twist, Wheels, saturate};
 use trench_formation::laws::{GoalMotion, Lyapunov};
+use trench_formation::safety::Side;
 use trench_msgs::msg::{Goal, LeaderState, RobotState, RunState};
 
 /// Speeds by which a robot may miss its command before it counts as deviating, and for how long (invariant 8).
@@ -54,6 +55,8 @@ pub(crate) struct Tick {
     holding: bool,
     last: Option<(RosTime, Wheels)>,
     pub(crate) agent: Agent,
+    /// The side of the last way round, and when it was taken last.
+    pub(crate) detour: Option<(Side, Steady)>,
     /// Velocity of the steered point at the end of the last tick, m/s: where the next one goes on.
     pub(crate) reference: Option<Vector2<f64>>,
 }
@@ -69,6 +72,7 @@ impl Tick {
             holding: false,
             last: None,
             agent: Agent::default(),
+            detour: None,
             reference: None,
         }
     }

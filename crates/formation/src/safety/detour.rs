@@ -3,7 +3,7 @@
 //! What blocks the straight way is taken together with all that is too near to it to pass between (the combined hull
 //! of 7.4, seen from the robot's centre), and the robot heads for the tangent to this cluster on the side of the shorter
 //! way. Ties and near ties go to the right, for all robots alike: two that meet head-on see each other point-symmetrically,
-//! so both keep right, and so do four that meet at one point. Only positions decide, so there is nothing to forget.
+//! so both keep right, and so do four that meet at one point. Without a side to keep to, only positions decide, so there is nothing to forget.
 use super::SafetyParameters;
 use super::scene::{Constraint, Scene};
 use crate::hull::Outline;
@@ -19,6 +19,8 @@ const BUFFER: f64 = 0.02;
 const SLACK: f64 = 0.005;
 /// By how much the way on the left must be shorter to be taken, m.
 const RIGHT_BIAS: f64 = 0.05;
+/// By how much the way on the other side must be shorter for a robot that keeps to one to change over, m.
+const KEPT_BIAS: f64 = 0.3;
 /// Cosine at which a way along a barrier leads away from it.
 const LEAVING: f64 = 0.05;
 /// A goal that can be approached to within this counts as one that can be reached, m.
@@ -34,6 +36,7 @@ const MOST_ROUNDS: usize = 4;
 pub(super) struct Detour {
     pub(super) direction: Vector2<f64>,
     pub(super) blocker: Constraint,
+    pub(super) side: Side,
 }
 
 /// One end of a cluster as seen from the robot: the angle from the direction to the goal, and the tangent point.
@@ -46,10 +49,12 @@ struct Extent {
     berth: f64,
 }
 
-/// The side on which a cluster is passed; its extent's index.
-#[derive(Clone, Copy, PartialEq)]
-enum Side {
+/// The side of the robot's way on which the way round lies; a cluster's extent has its index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// To the right.
     Right = 0,
+    /// To the left.
     Left = 1,
 }
 
@@ -59,6 +64,8 @@ pub(super) struct View<'a> {
     pub(super) parameters: &'a SafetyParameters,
     pub(super) centre: Vector2<f64>,
     pub(super) goal: Vector2<f64>,
+    /// The side that the robot took last.
+    pub(super) kept: Option<Side>,
 }
 
 impl View<'_> {
@@ -67,16 +74,22 @@ impl View<'_> {
         let first = self.first_blocker(self.goal, 0)?;
         let (members, extents) = self.cluster(0, first);
         let [right, left] = [Side::Right, Side::Left].map(|side| self.tangent(side, members, extents));
-        let left_is_shorter = |right: Extent, left: Extent| {
-            self.way_length(&left, Side::Left) + RIGHT_BIAS < self.way_length(&right, Side::Right)
+        let bias = match self.kept {
+            None => RIGHT_BIAS,
+            Some(Side::Right) => KEPT_BIAS,
+            Some(Side::Left) => -KEPT_BIAS,
         };
-        let target = match (right, left) {
-            (Some(right), Some(left)) if left_is_shorter(right, left) => left.point,
-            (Some(only), _) | (None, Some(only)) => only.point,
+        let left_is_shorter = |right: Extent, left: Extent| {
+            self.way_length(&left, Side::Left) + bias < self.way_length(&right, Side::Right)
+        };
+        let (target, side) = match (right, left) {
+            (Some(right), Some(left)) if left_is_shorter(right, left) => (left.point, Side::Left),
+            (Some(right), _) => (right.point, Side::Right),
+            (None, Some(left)) => (left.point, Side::Left),
             (None, None) => return None,
         };
         let direction = self.along_barriers((target - self.centre).try_normalize(0.0)?);
-        Some(Detour { direction, blocker: self.constraint(first) })
+        Some(Detour { direction, blocker: self.constraint(first), side })
     }
 
     /// Turns `direction` along what the robot all but touches, which would stop it otherwise.

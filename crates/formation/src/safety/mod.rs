@@ -8,6 +8,7 @@ mod limit;
 mod parameters;
 mod scene;
 
+pub use detour::Side;
 pub use parameters::{SafetyParameterError, SafetyParameters};
 pub use scene::{Constraint, MovingOutline, Neighbour, Scene};
 
@@ -25,6 +26,8 @@ pub struct Wish {
     pub twist: Twist,
     /// Where the law drives to, m, frame `map`. Without it the filter slows and stops, but does not lead round.
     pub goal: Option<Vector2<f64>>,
+    /// The side of the last way round, [`Filtered::side`], for robots that are not to change their minds.
+    pub kept: Option<Side>,
 }
 
 /// What is sent instead.
@@ -34,6 +37,8 @@ pub struct Filtered {
     pub twist: Twist,
     /// What made it differ from the wish; `None` if the wish is passed on bit for bit.
     pub acted: Option<Constraint>,
+    /// The side of the way round, if there is one.
+    pub side: Option<Side>,
 }
 
 /// The filter of one robot.
@@ -57,19 +62,19 @@ impl SafetyFilter {
         let place_known = (pose.x + pose.y + pose.theta).is_finite() && now.is_finite();
         let wish_known = wish.twist.is_finite() && wish.goal.is_none_or(|goal| (goal.x + goal.y).is_finite());
         if !(place_known && wish_known && scene.is_finite()) {
-            return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite) };
+            return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite), side: None };
         }
         let detour = wish.goal.and_then(|goal| {
-            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal }
+            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal, kept: wish.kept }
                 .with_goal_uncovered()
                 .detour()
         });
-        let (wanted, blocker) = match detour {
-            Some(detour) => (self.steer(pose, wish.twist, detour.direction), Some(detour.blocker)),
-            None => (wish.twist, None),
+        let (wanted, blocker, side) = match detour {
+            Some(detour) => (self.steer(pose, wish.twist, detour.direction), Some(detour.blocker), Some(detour.side)),
+            None => (wish.twist, None, None),
         };
         let (twist, decisive) = limit::limit(&self.parameters, scene, pose, now, wanted);
-        Filtered { twist, acted: decisive.or(blocker) }
+        Filtered { twist, acted: decisive.or(blocker), side }
     }
 
     /// Twist that turns the robot towards `direction`, at speed only once it faces there.

@@ -1,0 +1,91 @@
+//! Teams in pursuit of a moving target (Figure 1.5), in lock-step: the cores, launch files and honest bed of the live runs.
+//!
+//! `TRENCH_SEEDS` sets how many random starts the pursuit takes (20 in scripts/acceptance).
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[expect(dead_code, reason = "the experiments use the rest")]
+mod support;
+
+use support::{Finished, drive, root};
+use trench_bag::run::{SummaryOptions, summary};
+use trench_harness::Ending;
+use trench_sim::Random;
+
+fn seeds() -> u64 {
+    std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(3)
+}
+
+/// Eight robots anywhere in the left third of the field, bodies 0.12 m apart.
+fn starts(seed: u64) -> String {
+    let mut random = Random::new(seed, 96);
+    let mut poses: Vec<[f64; 3]> = Vec::new();
+    while poses.len() < 8 {
+        let pose = [random.between(0.2, 1.3), random.between(0.2, 2.2), random.between(-3.1, 3.1)];
+        if poses.iter().all(|other| libm::hypot(pose[0] - other[0], pose[1] - other[1]) > 0.28) {
+            poses.push(pose);
+        }
+    }
+    let numbers: Vec<String> = poses.iter().flatten().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+fn stands_without_contact(finished: &Finished, what: &str) {
+    assert_eq!(
+        finished.ending,
+        Ending::Exit { node: "/operator".to_owned(), code: 0 },
+        "{what}: {:?}",
+        finished.complaints
+    );
+    let summary = summary(&finished.run, &SummaryOptions::default());
+    assert!(summary.ground_truth, "judged by ground truth");
+    assert!(finished.run.contacts.is_empty(), "{what}: {:?}", finished.run.contacts);
+    let closest = summary.closest.unwrap();
+    assert!(closest.gap > 0.0, "{what}: {closest:?}");
+}
+
+#[test]
+fn a_column_follows_its_target_over_an_empty_field() {
+    stands_without_contact(&drive("column.launch.yaml", &[]), "column");
+}
+
+#[test]
+fn eight_robots_pursue_their_target_through_traps_and_gaps() {
+    for seed in 1..=seeds() {
+        let (poses, seed) = (starts(seed), seed.to_string());
+        let finished = drive("pursuit.launch.yaml", &[("poses", &poses), ("seed", &seed)]);
+        stands_without_contact(&finished, &format!("seed {seed}, poses {poses}"));
+    }
+}
+
+#[test]
+fn two_pursuits_are_equal_byte_for_byte() {
+    let run = || drive("pursuit.launch.yaml", &[("duration", "20.0"), ("tolerance", "9.0")]).digest;
+    assert_eq!(run(), run());
+}
+
+/// Every law on the honest bed: the column forms up on its segment, at rest and moving.
+#[test]
+fn every_dynamic_law_forms_the_column() {
+    let profile = std::fs::read_to_string(root().join("config/profiles/chain.yaml")).unwrap();
+    for law in ["goal", "goal_damped", "goal_at_rest", "zoned", "nearest", "chain"] {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["launch", "config/profiles"] {
+            let target = folder.path().join(name);
+            std::fs::create_dir_all(&target).unwrap();
+            for file in std::fs::read_dir(root().join(name)).unwrap() {
+                let file = file.unwrap().path();
+                std::fs::copy(&file, target.join(file.file_name().unwrap())).unwrap();
+            }
+        }
+        for name in ["cameras", "formations", "robots", "worlds"] {
+            let link = folder.path().join("config").join(name);
+            std::os::unix::fs::symlink(root().join("config").join(name), link).unwrap();
+        }
+        let text = profile.replace("law: chain", &format!("law: {law}"));
+        std::fs::write(folder.path().join("config/profiles/other.yaml"), text).unwrap();
+        let file = folder.path().join("launch/column.launch.yaml");
+        let arguments = [("profile", "other"), ("tolerance", "0.07"), ("duration", "50.0")];
+        let finished = support::drive_file(&file, &arguments);
+        stands_without_contact(&finished, law);
+    }
+}
