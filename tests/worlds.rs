@@ -16,14 +16,19 @@ const STARTS: &str = "[0.3, 0.4, 0.0, 0.3, 1.0, 0.0, 0.3, 1.6, 0.0, 0.3, 2.2, 0.
                       0.7, 0.6, 3.0, 0.7, 1.2, 3.0, 0.7, 1.8, 3.0, 0.7, 2.4, 3.0]";
 
 fn cross(seconds: f64, bed: &[(&str, &str)]) -> Finished {
-    let folder = tempfile::tempdir().unwrap();
-    let (formation_path, launch_path) = (folder.path().join("places.yaml"), folder.path().join("run.launch.yaml"));
     // Places up to the far corner, 0.2 m from the edges.
     let mut far = places(8, [3.8, 2.6], 3);
     far[0] = [3.8, 2.6];
     far[1] = [3.8, 0.2];
-    std::fs::write(&formation_path, formation(&far)).unwrap();
-    let text = launch_file(8, seconds, &formation_path.display().to_string(), STARTS, "large", bed);
+    go(&far, STARTS, seconds, bed)
+}
+
+/// As many robots as there are places go there on the large field.
+fn go(places: &[[f64; 2]], starts: &str, seconds: f64, bed: &[(&str, &str)]) -> Finished {
+    let folder = tempfile::tempdir().unwrap();
+    let (formation_path, launch_path) = (folder.path().join("places.yaml"), folder.path().join("run.launch.yaml"));
+    std::fs::write(&formation_path, formation(places)).unwrap();
+    let text = launch_file(places.len(), seconds, &formation_path.display().to_string(), starts, "large", bed);
     std::fs::write(&launch_path, text).unwrap();
     drive_file(&launch_path, &[])
 }
@@ -40,6 +45,22 @@ fn eight_robots_cross_a_large_field_below_one_camera() {
     let finished = cross(60.0, &[("camera", "overhead_large"), ("render", "false")]);
     assert_eq!(finished.ending, Ending::Exit { node: "/operator".to_owned(), code: 0 });
     check_nobody_touched_or_got_lost(&finished);
+}
+
+#[test]
+fn twenty_robots_share_the_radio_the_map_and_their_lasers() {
+    let start = |index: u8| {
+        let (column, row) = (f64::from(index % 5), f64::from(index / 5));
+        format!("{:?}, {:?}, {:?}", 0.4 + 0.8 * column, 0.35 + 0.7 * row, 0.3 * f64::from(index) - 3.0)
+    };
+    let starts = format!("[{}]", (0..20).map(start).collect::<Vec<_>>().join(", "));
+    let lasers = format!("[{}]", (1..=20).map(|robot| format!("robot{robot}")).collect::<Vec<_>>().join(", "));
+    let bed = [("camera", "overhead_four"), ("render", "false"), ("lasers", &lasers)];
+    let finished = go(&places(20, [3.8, 2.6], 5), &starts, 15.0, &bed);
+    check_nobody_touched_or_got_lost(&finished);
+    // What lasers see of the other robots is no obstacle: everybody gets on.
+    let summary = summary(&finished.run, &SummaryOptions::default());
+    assert!(summary.robots.iter().filter(|robot| robot.max_speed > 0.1).count() >= 18, "{summary}");
 }
 
 #[test]
