@@ -3,17 +3,17 @@
 use crate::markers::{PICTURES, Picture};
 use crate::report::Report;
 use crate::scans::{Clusters, Memory, check, locate};
-use crate::settings::{Settings, descriptors};
+use crate::settings::{ScanSettings, Settings, descriptors};
 use crate::sources::{Known, Sources};
 use crate::team::{Team, Whereabouts};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, RosTime,
     Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
-use trench_formation::hull::{ApparentObstacle, Obstacle, combine};
+use trench_formation::hull::{ApparentObstacle, Obstacle, combine_unless};
 use trench_msgs::Message;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{self, ApparentObstacleArray, ObstacleArray, Point2, TeamState};
@@ -117,10 +117,16 @@ impl ObstacleMapper {
         self.sources.forget(at);
         self.memory.expire(at.steady, self.settings.scans.memory);
         let mut known: Vec<Known> = self.sources.at(at).collect();
-        known.extend(self.clusters.find(&mut self.memory, self.settings.scans.gap));
+        let ScanSettings { gap, longest, .. } = self.settings.scans;
+        let mut walls = BTreeMap::new();
+        for boundary in self.clusters.find(&mut self.memory, gap, longest, self.settings.clearance) {
+            walls.extend(boundary.wall.map(|wall| (boundary.known.id, wall)));
+            known.push(boundary.known);
+        }
+        let adjoin = |a: u32, b: u32| walls.get(&a).is_some_and(|wall| walls.get(&b) == Some(wall));
         let obstacles: Vec<Obstacle> =
             known.iter().map(|known| Obstacle { id: known.id, shape: known.shape.clone() }).collect();
-        let combined = match combine(&obstacles, self.settings.clearance) {
+        let combined = match combine_unless(&obstacles, self.settings.clearance, adjoin) {
             Ok(combined) => combined,
             Err(error) => {
                 self.health.set("hulls", Condition::Error, error.to_string());

@@ -25,6 +25,8 @@ pub(crate) struct ScanSettings {
     pub(crate) tolerance: f64,
     /// Points nearer than this are one boundary, m.
     pub(crate) gap: f64,
+    /// A boundary longer than this is a wall, m.
+    pub(crate) longest: f64,
     /// How long a point is kept after it was last seen, s.
     pub(crate) memory: f64,
 }
@@ -45,6 +47,12 @@ pub(crate) fn descriptors() -> Vec<P> {
         .range(0.0, 1.0),
         P::double("scan.gap", 0.15, "m, measured points nearer to each other than this are one boundary")
             .range(0.01, 10.0),
+        P::double(
+            "scan.longest",
+            1.2,
+            "m, a boundary longer than this is a wall: its pieces are not combined to one hull",
+        )
+        .range(0.1, 1000.0),
         P::double("scan.memory", 3.0, "s, how long what no laser sees any more is kept").range(0.1, 3600.0),
     ]
 }
@@ -68,6 +76,7 @@ impl Settings {
                 laser: Pose2 { x, y, theta },
                 tolerance: parameters.f64("scan.tolerance")?,
                 gap: parameters.f64("scan.gap")?,
+                longest: parameters.f64("scan.longest")?,
                 memory: parameters.f64("scan.memory")?,
             },
         })

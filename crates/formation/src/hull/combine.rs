@@ -41,6 +41,20 @@ struct Group {
 /// # Errors
 /// A clearance that is negative or not finite; two obstacles of one id.
 pub fn combine(obstacles: &[Obstacle], clearance: f64) -> Result<Vec<ApparentObstacle>, HullError> {
+    combine_unless(obstacles, clearance, |_, _| false)
+}
+
+/// As [`combine`], but obstacles that `adjoin` (by their ids, either way round) are not combined for being near each other:
+/// pieces of one long wall, whose hull would close the corridor along it (9.2, Fig. 9.1). They still are when something
+/// else joins them.
+///
+/// # Errors
+/// As [`combine`].
+pub fn combine_unless(
+    obstacles: &[Obstacle],
+    clearance: f64,
+    adjoin: impl Fn(u32, u32) -> bool,
+) -> Result<Vec<ApparentObstacle>, HullError> {
     let clearance = length("the clearance", clearance)?;
     let mut sorted: Vec<&Obstacle> = obstacles.iter().collect();
     sorted.sort_by_key(|obstacle| obstacle.id);
@@ -49,7 +63,7 @@ pub fn combine(obstacles: &[Obstacle], clearance: f64) -> Result<Vec<ApparentObs
     }
     let single = |(index, obstacle): (usize, &&Obstacle)| Group::new(vec![index], obstacle.shape.clone());
     let mut groups: Vec<Group> = sorted.iter().enumerate().map(single).collect();
-    while merge_once(&mut groups, &sorted, clearance) {}
+    while merge_once(&mut groups, &sorted, clearance, &adjoin) {}
     groups.sort_by_key(|group| group.members[0]);
     let named = |group: Group| {
         let members: Vec<u32> = group.members.iter().map(|index| sorted[*index].id).collect();
@@ -66,7 +80,12 @@ struct Slot {
 }
 
 /// Joins all groups that are near each other now; whether there were any.
-fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) -> bool {
+fn merge_once(
+    groups: &mut Vec<Group>,
+    obstacles: &[&Obstacle],
+    clearance: f64,
+    adjoin: &impl Fn(u32, u32) -> bool,
+) -> bool {
     groups.sort_unstable_by(|a, b| a.low[0].total_cmp(&b.low[0]).then(a.members[0].cmp(&b.members[0])));
     let mut parents: Vec<usize> = (0..groups.len()).collect();
     let slots: Vec<Slot> =
@@ -82,7 +101,10 @@ fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) 
                 continue;
             }
             let (first, second) = (root(&mut parents, i), root(&mut parents, j));
-            if first != second && groups[i].is_nearer_than(&groups[j], clearance) {
+            if first != second
+                && groups[i].is_nearer_than(&groups[j], clearance)
+                && !only_adjoin(&groups[i], &groups[j], obstacles, clearance, adjoin)
+            {
                 parents[first.max(second)] = first.min(second);
                 merged = true;
             }
@@ -92,6 +114,26 @@ fn merge_once(groups: &mut Vec<Group>, obstacles: &[&Obstacle], clearance: f64) 
         join(groups, &mut parents, obstacles);
     }
     merged
+}
+
+/// Whether two groups are near each other by members that adjoin, and by no others.
+fn only_adjoin(
+    a: &Group,
+    b: &Group,
+    obstacles: &[&Obstacle],
+    clearance: f64,
+    adjoin: &impl Fn(u32, u32) -> bool,
+) -> bool {
+    let pairs = a.members.iter().flat_map(|i| b.members.iter().map(|j| (obstacles[*i], obstacles[*j])));
+    let mut any = false;
+    for (one, other) in pairs {
+        if adjoin(one.id, other.id) || adjoin(other.id, one.id) {
+            any = true;
+        } else if one.shape.outline().is_nearer_than(&other.shape.outline(), clearance) {
+            return false;
+        }
+    }
+    any
 }
 
 /// Replaces the groups of each root by their union.

@@ -10,7 +10,7 @@ mod outline;
 mod shape;
 
 pub use area::RepulsiveArea;
-pub use combine::{ApparentObstacle, Obstacle, combine};
+pub use combine::{ApparentObstacle, Obstacle, combine, combine_unless};
 pub use error::HullError;
 pub use outline::{Approach, Outline};
 pub use shape::Shape;

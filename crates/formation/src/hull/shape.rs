@@ -77,6 +77,17 @@ impl Shape {
         Outline { points: &self.points, radius: self.radius }
     }
 
+    /// Its least extent over all directions, m: that of the narrowest gap it passes.
+    pub fn width(&self) -> f64 {
+        let across = |(start, end): (Vector2<f64>, Vector2<f64>)| {
+            let edge = (end - start).try_normalize(0.0)?;
+            let heights = self.points.iter().map(|point| edge.perp(&(point - start)).abs());
+            Some(heights.fold(0.0, f64::max))
+        };
+        let least = self.outline().edges().filter_map(across).fold(f64::INFINITY, f64::min);
+        2.0 * self.radius + if least.is_finite() { least } else { 0.0 }
+    }
+
     /// Area with the rounding, m^2.
     pub fn area(&self) -> f64 {
         let next = self.points.iter().cycle().skip(1);

@@ -1,6 +1,7 @@
 //! Cells near each other are one boundary, with an id that it keeps while it is seen.
 
 use super::memory::{CELL, Memory, Place};
+use super::walls;
 use crate::sources::Known;
 use std::collections::BTreeMap;
 use trench_formation::Vector2;
@@ -8,6 +9,22 @@ use trench_formation::hull::Shape;
 
 /// Ids of boundaries begin here: those of published obstacles are below.
 const FIRST: u32 = 1 << 31;
+
+/// What is known of a boundary, or of a piece of one.
+#[derive(Debug, Clone)]
+pub(crate) struct Boundary {
+    pub(crate) known: Known,
+    /// The wall that it is a piece of: pieces of one wall adjoin.
+    pub(crate) wall: Option<usize>,
+}
+
+/// Cells that are to have one id: which, by how many votes.
+struct Claim {
+    votes: usize,
+    id: u32,
+    group: Vec<Place>,
+    wall: Option<usize>,
+}
 
 /// Gives out ids.
 #[derive(Debug, Default)]
@@ -17,35 +34,45 @@ pub(crate) struct Clusters {
 
 impl Clusters {
     /// The boundaries of all cells that are less than `gap` (m) apart: what is known of each is the hull of its points,
-    /// grown by half a cell. Ascending ids.
+    /// grown by half a cell. One longer than `longest` (m) is a wall, and cut into pieces no thicker than `thickness` (m).
+    /// Ascending ids.
     ///
     /// A boundary has the id that most of its cells had before; where two were one before, the larger keeps the id.
-    pub(crate) fn find(&mut self, memory: &mut Memory, gap: f64) -> Vec<Known> {
+    pub(crate) fn find(&mut self, memory: &mut Memory, gap: f64, longest: f64, thickness: f64) -> Vec<Boundary> {
         let places: Vec<Place> = memory.cells.keys().copied().collect();
-        let roots = connected(&places, gap);
-        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (index, root) in roots.iter().enumerate() {
-            groups.entry(*root).or_default().push(index);
+        let point = |place: &Place| memory.cells.get(place).map(|cell| cell.point);
+        let mut groups: Vec<(Vec<Place>, Option<usize>)> = Vec::new();
+        let mut walls = 0;
+        for group in walls::groups(&places, gap) {
+            if walls::is_wall(&group, longest) {
+                let pieces = walls::cut(group, gap, thickness, &point);
+                groups.extend(pieces.into_iter().map(|piece| (piece, Some(walls))));
+                walls += 1;
+            } else {
+                groups.push((group, None));
+            }
         }
-        let claims = groups.values().map(|group| (claim(memory, &places, group), group));
-        let mut claims: Vec<((usize, u32), &Vec<usize>)> = claims.collect();
-        // Most cells first; equal ones in the order of their ids, then of their places.
-        claims.sort_by(|((votes, id), group), ((other_votes, other_id), other)| {
-            other_votes.cmp(votes).then(id.cmp(other_id)).then(group[0].cmp(&other[0]))
+        let claims = groups.into_iter().map(|(group, wall)| {
+            let (votes, id) = claim(memory, &group);
+            Claim { votes, id, group, wall }
         });
-        let mut boundaries: BTreeMap<u32, Known> = BTreeMap::new();
-        for ((votes, wanted), group) in claims {
+        let mut claims: Vec<Claim> = claims.collect();
+        // Most cells first; equal ones in the order of their ids, then of their places.
+        claims.sort_by(|a, b| b.votes.cmp(&a.votes).then(a.id.cmp(&b.id)).then_with(|| a.group.cmp(&b.group)));
+        let mut boundaries: BTreeMap<u32, Boundary> = BTreeMap::new();
+        for Claim { votes, id: wanted, group, wall } in claims {
             let is_free = votes > 0 && !boundaries.contains_key(&wanted);
             let id = if is_free { wanted } else { self.give() };
             let mut points = Vec::with_capacity(group.len());
-            for index in group {
-                if let Some(cell) = memory.cells.get_mut(&places[*index]) {
+            for place in &group {
+                if let Some(cell) = memory.cells.get_mut(place) {
                     cell.id = id;
                     points.push(cell.point);
                 }
             }
             if let Ok(shape) = Shape::enclosing(&points, 0.5 * CELL) {
-                boundaries.insert(id, Known { id, shape, velocity: Vector2::zeros() });
+                let known = Known { id, shape, velocity: Vector2::zeros() };
+                boundaries.insert(id, Boundary { known, wall });
             }
         }
         boundaries.into_values().collect()
@@ -59,19 +86,17 @@ impl Clusters {
 }
 
 /// The id that most cells of a group have, with how many; the least of equals. (0, 0) where none has one.
-fn claim(memory: &Memory, places: &[Place], group: &[usize]) -> (usize, u32) {
+fn claim(memory: &Memory, group: &[Place]) -> (usize, u32) {
     let mut votes: BTreeMap<u32, usize> = BTreeMap::new();
-    for index in group {
-        if let Some(cell) = memory.cells.get(&places[*index]).filter(|cell| cell.id != 0) {
-            *votes.entry(cell.id).or_default() += 1;
-        }
+    for cell in group.iter().filter_map(|place| memory.cells.get(place)).filter(|cell| cell.id != 0) {
+        *votes.entry(cell.id).or_default() += 1;
     }
     let most = votes.iter().max_by(|a, b| a.1.cmp(b.1).then(b.0.cmp(a.0)));
     most.map_or((0, 0), |(id, count)| (*count, *id))
 }
 
 /// For each place (ascending) the index that stands for its group: places less than `gap` m apart are in one group.
-fn connected(places: &[Place], gap: f64) -> Vec<usize> {
+pub(super) fn connected(places: &[Place], gap: f64) -> Vec<usize> {
     let reach = (gap / CELL).ceil() as i32;
     let mut parents: Vec<usize> = (0..places.len()).collect();
     // Neighbours are in the next rows; in each row the first of them only ever moves on.
@@ -119,7 +144,7 @@ mod tests {
     }
 
     fn ids(clusters: &mut Clusters, memory: &mut Memory) -> Vec<u32> {
-        clusters.find(memory, 0.15).iter().map(|known| known.id - FIRST).collect()
+        clusters.find(memory, 0.15, 9.0, 0.2).iter().map(|found| found.known.id - FIRST).collect()
     }
 
     #[test]
@@ -146,11 +171,11 @@ mod tests {
     fn hulls_contain_their_points() {
         let (mut clusters, mut memory) = (Clusters::default(), Memory::default());
         line(&mut memory, 0.0, 0.0, 0.5);
-        let known = clusters.find(&mut memory, 0.15);
+        let known = &clusters.find(&mut memory, 0.15, 9.0, 0.2)[0].known;
         for x in [0.02, 0.25, 0.48] {
-            assert!(known[0].shape.outline().approach(Vector2::new(x, 1.0)).gap <= 0.0);
+            assert!(known.shape.outline().approach(Vector2::new(x, 1.0)).gap <= 0.0);
         }
-        assert!(known[0].shape.outline().approach(Vector2::new(0.25, 1.1)).gap > 0.05);
+        assert!(known.shape.outline().approach(Vector2::new(0.25, 1.1)).gap > 0.05);
     }
 
     proptest! {

@@ -3,6 +3,7 @@
 mod clusters;
 mod intake;
 mod memory;
+mod walls;
 
 pub(crate) use clusters::Clusters;
 pub(crate) use intake::{Beams, check, locate};

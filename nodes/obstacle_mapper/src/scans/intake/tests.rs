@@ -2,7 +2,7 @@ use super::*;
 use trench_formation::hull::Shape;
 
 fn settings() -> ScanSettings {
-    ScanSettings { body_radius: 0.08, laser: Pose2::default(), tolerance: 0.05, gap: 0.15, memory: 1.0 }
+    ScanSettings { body_radius: 0.08, laser: Pose2::default(), tolerance: 0.05, gap: 0.15, longest: 1.2, memory: 1.0 }
 }
 
 fn scan(ranges: &[f32]) -> LaserScan {
