@@ -159,7 +159,11 @@ fn local_minima_and_remedies() {
 /// Fig. 9.1: through the corridor, without touching its walls, and on as a chain.
 #[test]
 fn corridor_of_9_1() {
-    let case = run("9.1_corridor.yaml");
+    let (mut summary, kept) = run_with("9.1_corridor.yaml", &[3.0, 6.0, 9.0, 12.0, 15.0, 20.0, 30.0]);
+    let between_walls = kept.concat().into_iter().filter(|sample| (1.0..39.0).contains(&sample.position.x));
+    let aside: Vec<f64> = between_walls.map(|sample| sample.position.y.abs()).collect();
+    assert!(aside.len() > 5 && aside.iter().all(|aside| *aside < 1.5), "a robot went round: {aside:?}");
+    let case = summary.cases.remove(0);
     assert!(case.conforms_after.is_some(), "{case:?}");
     assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.5), "{case:?}");
     assert!(case.robots.iter().all(|robot| robot.position[0] > 30.0) && case.in_zone_1 == 0.0, "{case:?}");
