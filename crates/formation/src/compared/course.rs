@@ -68,7 +68,7 @@ impl Course {
                 let nearest = nearest(walls, robot.position);
                 outcome.least_gap = outcome.least_gap.min(nearest.gap);
                 let hull = hulls[obstacle].outline().approach(robot.position);
-                let is_closed = guide.closed().contains(&obstacle);
+                let is_closed = guide.repelling().contains(&obstacle);
                 force += self.repulsion.push(if is_closed { hull } else { nearest }, to_target).force;
             }
             let before = robot.position;

@@ -16,7 +16,7 @@ pub trait Guide {
     fn target(&mut self, course: &Course, time: f64, robot: Vector2<f64>) -> Vector2<f64>;
 
     /// Obstacles (by index) that repel as their convex hulls rather than as their walls.
-    fn closed(&self) -> &[usize] {
+    fn repelling(&self) -> &[usize] {
         &[]
     }
 

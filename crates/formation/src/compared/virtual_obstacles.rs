@@ -100,7 +100,7 @@ impl Guide for VirtualObstacles {
         self.way.first().copied().unwrap_or(course.goal)
     }
 
-    fn closed(&self) -> &[usize] {
+    fn repelling(&self) -> &[usize] {
         &self.repelling
     }
 
