@@ -8,7 +8,10 @@ use trench_core::{Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source a
 use trench_msgs::Encode;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TwistStamped;
-use trench_msgs::msg::{ApparentObstacleArray, Goal, Goals, LeaderState, Point2, RobotState, RunState, TeamState};
+use trench_msgs::msg::{
+    ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, Member, Point2, Queue, RobotState,
+    RunState, Segment, TeamState,
+};
 use trench_msgs::std_msgs::Bool;
 
 struct NoFiles;
@@ -233,4 +236,75 @@ fn a_refused_change_leaves_the_old_gains_in_force() {
     assert!(bench.core.set_parameters(&parameters).is_err());
     bench.running();
     assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
+}
+
+/// robot1 follows robot2 in a chain on the segment y = 0.9, in the frame of the map.
+fn follower() -> Bench {
+    let core = make(&[("team", "[robot1, robot2]"), ("law", "chain")]).unwrap();
+    let mut bench = Bench { core, out: Outbox::default(), seconds: 100.0 };
+    bench.running();
+    let point = |x| Point2 { x, y: 0.9 };
+    let segment = Segment { points: vec![point(0.0), point(3.0)], ..Default::default() };
+    let queue = Queue { segment, vertices: vec![point(3.0)], share: 1.0, ..Default::default() };
+    bench.send("/formation", &Formation { hash: 7, queues: vec![queue], ..Default::default() });
+    let member = |robot: &str, rank, leader: &str| Member {
+        robot: robot.to_owned(),
+        rank,
+        leader: leader.to_owned(),
+        ..Default::default()
+    };
+    let members = vec![member("robot2", 1, ""), member("robot1", 2, "robot2")];
+    bench.send("/assignment", &Assignment { epoch: 4, formation_hash: 7, members, ..Default::default() });
+    bench
+}
+
+fn leader_at(bench: &Bench, x: f64, epoch: u64) -> LeaderState {
+    let mut state = LeaderState { epoch, formation_hash: 7, rank: 1, ..Default::default() };
+    state.header.stamp = bench.times().ros.plus_seconds(-0.035).into();
+    state.point = Point2 { x, y: 0.9 };
+    state
+}
+
+#[test]
+fn a_follower_goes_after_its_leader_and_rests_when_that_is_silent() {
+    let mut bench = follower();
+    let mut fastest = 0.0_f64;
+    for tick in 0..90 {
+        bench.running();
+        if tick < 30 {
+            bench.send("/robot2/leader_state", &leader_at(&bench, 1.9, 4));
+        }
+        let v = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        fastest = fastest.max(v);
+        bench.seconds += 1.0 / 30.0;
+    }
+    assert!(fastest > 0.05, "{fastest}");
+    assert_eq!(bench.last_command().twist.linear.x, 0.0);
+    assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+}
+
+#[test]
+fn leader_states_of_another_epoch_or_time_do_not_count() {
+    let refused = |spoil: &dyn Fn(&mut LeaderState), expected: &str| {
+        let mut bench = follower();
+        let mut state = leader_at(&bench, 1.9, 4);
+        spoil(&mut state);
+        bench.send("/robot2/leader_state", &state);
+        let command = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+        assert_eq!(command.twist.linear.x, 0.0, "{expected}");
+        assert!(bench.says().contains(expected), "{}", bench.says());
+    };
+    refused(&|state| state.epoch = 3, "it is of epoch 3, ours is 4");
+    refused(&|state| state.formation_hash = 8, "of another formation");
+    refused(&|state| state.header.stamp = RosTime(0).plus_seconds(105.0).into(), "from the future");
+    refused(&|state| state.point.x = f64::NAN, "not finite");
+}
+
+#[test]
+fn dynamic_laws_outside_the_theory_are_refused_with_their_equation() {
+    let refused = |overrides: &[(&str, &str)]| make(overrides).map(drop).unwrap_err();
+    assert!(refused(&[("law", "chain"), ("damping", "1.0")]).contains("(7.13) with k = 1 < 2"));
+    assert!(refused(&[("law", "goal"), ("damping", "0.0")]).contains("(5.1) needs k > 0"));
+    assert!(refused(&[("law", "chain"), ("zones.radii", "[0.3, 0.2, 0.4, 0.5, 1.0]")]).contains("6.2.2"));
+    assert!(make(&[("law", "chain"), ("damping", "1.0"), ("refuse_unstable_gains", "false")]).is_ok());
 }
