@@ -3,6 +3,7 @@
 //! The `.msg` files in `msg/` and `standard/` are the only source: the Rust types are generated from them at build time.
 //! Ours are in [`msg`], those of every other package in a module of its name: [`geometry_msgs`], [`std_srvs`] and so on.
 
+mod camera_info;
 mod image;
 mod message;
 mod registry;

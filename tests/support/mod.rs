@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use trench_bag::run::{Run, RunBuilder};
 use trench_core::{Advertise, Level, Source, Times};
-use trench_harness::{Disk, Ending, Lockstep, Observer, load, plan};
+use trench_harness::{Ending, Lockstep, Observer, load, plan};
+use trench_journal::Disk;
 use trench_sim::Random;
 
 /// The root of the repository.

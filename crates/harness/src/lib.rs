@@ -4,12 +4,12 @@
 
 mod bus;
 pub mod catalog;
-mod disk;
 mod load;
 mod lockstep;
 pub mod replay;
 
 pub use bus::BusError;
-pub use disk::Disk;
 pub use load::{LoadError, Loaded, load, load_journalled, parameters, plan};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};
+/// What cores read while they are made in this process.
+pub use trench_journal::Disk;

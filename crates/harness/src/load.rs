@@ -4,9 +4,8 @@ use crate::catalog;
 use crate::lockstep::Instance;
 use std::collections::BTreeMap;
 use std::path::Path;
-use trench_config::params::{Source, resolve};
-use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
+use trench_config::{ConfigError, Parameters};
+use trench_core::arguments::{Arguments, Names, UsageError, process_parameters};
 use trench_core::{Files, NodeContext, NodeDescription};
 use trench_journal::{BuildError, Journals};
 use trench_launch::{Plan, Process, Request};
@@ -128,31 +127,19 @@ fn resolved(
     let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
         .map_err(|error| LoadError::Usage { label: label(), error })?;
     let names = Names::new(&arguments.remaps, node.name);
-    let parameters = |errors| LoadError::Parameters { label: label(), errors };
-    let texts = texts(&arguments, process, files).map_err(|error| parameters(vec![error]))?;
     let mut descriptors = (node.parameters)();
-    // Every process has it; in lock-step there is no network to publish over.
-    descriptors.push(ParameterDescriptor::string_list("publish_over_network", &[], "topics to send to viewers too"));
-    let sources: Vec<Source<'_>> = arguments.parameters.iter().zip(&texts).map(as_source).collect();
-    let resolved = resolve(&sources, &names.namespace, &names.node, &descriptors).map_err(parameters)?;
+    // In lock-step there is no network to publish over.
+    descriptors.extend(process_parameters());
+    let resolved = arguments
+        .resolve_parameters(&names, &descriptors, |path| text(path, process, files))
+        .map_err(|errors| LoadError::Parameters { label: label(), errors })?;
     Ok((arguments, resolved))
 }
 
-/// The text behind each parameter source: of the files that the launcher would write, or that are there.
-fn texts(arguments: &Arguments, process: &Process, files: &dyn Files) -> Result<Vec<String>, ConfigError> {
-    let text = |source: &ParameterSource| match source {
-        ParameterSource::Override { .. } => Ok(String::new()),
-        ParameterSource::File(path) => match process.parameter_files.iter().find(|file| file.path == Path::new(path)) {
-            Some(file) => Ok(file.text.clone()),
-            None => files.read("--params-file", path),
-        },
-    };
-    arguments.parameters.iter().map(text).collect()
-}
-
-fn as_source<'a>((source, text): (&'a ParameterSource, &'a String)) -> Source<'a> {
-    match source {
-        ParameterSource::File(name) => Source::File { name, text },
-        ParameterSource::Override { node, name, value } => Source::Override { node: node.as_deref(), name, value },
+/// The text of a parameter file that the launcher would write, or that is there.
+fn text(path: &str, process: &Process, files: &dyn Files) -> Result<String, ConfigError> {
+    match process.parameter_files.iter().find(|file| file.path == Path::new(path)) {
+        Some(file) => Ok(file.text.clone()),
+        None => files.read("--params-file", path),
     }
 }

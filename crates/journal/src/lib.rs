@@ -7,6 +7,7 @@
 //! The container is MCAP: chunked, compressed, checksummed. A step is one message of the channel `steps`, numbered
 //! without gaps; its log time is the event's monotonic time, its publish time the event's ROS time.
 
+mod disk;
 mod error;
 mod file;
 mod journal;
@@ -20,6 +21,7 @@ mod start;
 mod value;
 mod witness;
 
+pub use disk::Disk;
 pub use error::JournalError;
 pub use journal::Journal;
 pub use journalled::Journalled;

@@ -12,27 +12,15 @@ use crate::process::Process;
 use crate::transport::TransportError;
 use crate::transport::dds::full_name;
 use std::process::ExitCode;
-use std::{env, fs, io};
-use trench_config::params::{self, Source};
-use trench_config::{ConfigError, Origin, ParameterDescriptor, Parameters};
-use trench_core::arguments::{Arguments, Names, ParameterSource, UsageError};
+use std::{env, io};
+use trench_config::params::USE_SIM_TIME;
+use trench_config::{ConfigError, Parameters};
+use trench_core::arguments::{Arguments, Names, PUBLISH_OVER_NETWORK, UsageError, process_parameters};
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription};
-use trench_journal::{BuildError, Journals};
+use trench_journal::{BuildError, Disk, Journals};
 
 /// The highest domain whose ports exist.
 const LAST_DOMAIN: u16 = 232;
-
-/// The runtime's own parameter.
-const PUBLISH_OVER_NETWORK: &str = "publish_over_network";
-
-fn own_parameters() -> [ParameterDescriptor; 2] {
-    let clock = "whether /clock is this node's time";
-    let network = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
-    [
-        ParameterDescriptor::bool(params::USE_SIM_TIME, false, clock).read_only(),
-        ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], network).read_only(),
-    ]
-}
 
 /// Why a process ends before or while it runs.
 #[derive(Debug, thiserror::Error)]
@@ -102,7 +90,7 @@ fn try_run(
 ) -> Result<u8, RunError> {
     let arguments = Arguments::parse(command_line)?;
     let mut descriptors = (description.parameters)();
-    descriptors.extend(own_parameters());
+    descriptors.extend(process_parameters());
     if arguments.help {
         print!("{}", help::text(&description, &descriptors));
         return Ok(0);
@@ -110,11 +98,13 @@ fn try_run(
     let domain = domain(env::var("ROS_DOMAIN_ID").ok())?;
     let names = Names::new(&arguments.remaps, description.name);
     let full = full_name(&names.namespace, &names.node);
-    let parameters = parameters(&arguments, &names, &descriptors).map_err(RunError::Config)?;
+    let parameters = arguments
+        .resolve_parameters(&names, &descriptors, |path| Disk.read("--params-file", path))
+        .map_err(RunError::Config)?;
     let checkpoint = Checkpoint::of(&full, domain);
     let core = build(description, &names, &checkpoint, &parameters, journals)?;
 
-    let use_sim_time = parameters.bool(params::USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
+    let use_sim_time = parameters.bool(USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
     let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
     let publish_over_network = over_network.to_vec();
     let name = logger_name(&full);
@@ -139,30 +129,6 @@ fn domain(variable: Option<String>) -> Result<u16, UsageError> {
     text.parse().ok().filter(|domain| *domain <= LAST_DOMAIN).ok_or(UsageError::Domain(text))
 }
 
-fn parameters(
-    arguments: &Arguments,
-    names: &Names<'_>,
-    descriptors: &[ParameterDescriptor],
-) -> Result<Parameters, Vec<ConfigError>> {
-    let mut texts = Vec::new();
-    for source in &arguments.parameters {
-        texts.push(match source {
-            ParameterSource::File(path) => read("--params-file", path).map_err(|error| vec![error])?,
-            ParameterSource::Override { .. } => String::new(),
-        });
-    }
-    let sources: Vec<_> = arguments
-        .parameters
-        .iter()
-        .zip(&texts)
-        .map(|(source, text)| match source {
-            ParameterSource::File(name) => Source::File { name, text },
-            ParameterSource::Override { node, name, value } => Source::Override { node: node.as_deref(), name, value },
-        })
-        .collect();
-    params::resolve(&sources, &names.namespace, &names.node, descriptors)
-}
-
 fn build(
     description: NodeDescription,
     names: &Names<'_>,
@@ -176,7 +142,7 @@ fn build(
         checkpoint: checkpoint.read()?,
         seed: seed()?,
     };
-    Ok(trench_journal::build(&description, &context, parameters, &FileSystem, names, journals)?)
+    Ok(trench_journal::build(&description, &context, parameters, &Disk, names, journals)?)
 }
 
 /// The host's randomness.
@@ -184,23 +150,4 @@ fn seed() -> io::Result<u64> {
     let mut bytes = [0; 8];
     rustix::rand::getrandom(&mut bytes, rustix::rand::GetRandomFlags::empty())?;
     Ok(u64::from_le_bytes(bytes))
-}
-
-/// The files of this host.
-struct FileSystem;
-
-impl Files for FileSystem {
-    fn read(&self, key: &str, path: &str) -> Result<String, ConfigError> {
-        read(key, path)
-    }
-}
-
-fn read(key: &str, path: &str) -> Result<String, ConfigError> {
-    fs::read_to_string(path).map_err(|error| ConfigError {
-        origin: Origin::new(path, 0),
-        key: key.to_owned(),
-        value: path.to_owned(),
-        problem: format!("cannot be read: {error}"),
-        remedy: "name a file that exists and is text".to_owned(),
-    })
 }

@@ -7,7 +7,7 @@ use trench_msgs::msg::{Obstacle, ObstacleArray, Point2};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::sensor_msgs::{CameraInfo, LaserScan};
 use trench_msgs::std_msgs::Header;
-use trench_optics::Lens;
+use trench_optics::{Lens, PlumbBob};
 use trench_sim::{Contact, Laser, Thing, Truth};
 
 pub(crate) fn header(stamp: RosTime, frame_id: &str) -> Header {
@@ -17,17 +17,8 @@ pub(crate) fn header(stamp: RosTime, frame_id: &str) -> Header {
 /// The lens, for an image with this stamp.
 pub(crate) fn camera_info(stamp: RosTime, frame_id: &str, lens: &Lens) -> CameraInfo {
     let Lens { width, height, fx, fy, cx, cy, distortion } = *lens;
-    CameraInfo {
-        header: header(stamp, frame_id),
-        height,
-        width,
-        distortion_model: "plumb_bob".to_owned(),
-        d: vec![distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3],
-        k: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
-        r: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        p: [fx, 0.0, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
-        ..CameraInfo::default()
-    }
+    let PlumbBob { k1, k2, p1, p2, k3 } = distortion;
+    CameraInfo::plumb_bob(header(stamp, frame_id), [width, height], [fx, fy], [cx, cy], [k1, k2, p1, p2, k3])
 }
 
 /// Where a robot really is.

@@ -4,7 +4,7 @@ use super::LaunchError;
 use clap::ValueEnum;
 use std::path::{Path, PathBuf};
 use trench_bag::recorder;
-use trench_harness::Disk;
+use trench_journal::Disk;
 use trench_launch::{Plan, Process};
 
 /// What journals keep by value.

@@ -1,9 +1,11 @@
 //! The command line of a ROS 2 node: `--ros-args ... [--]`, as often as one likes, and `--help`.
 
 mod error;
+mod parameters;
 mod remap;
 
 pub use error::UsageError;
+pub use parameters::{PUBLISH_OVER_NETWORK, process_parameters};
 pub use remap::{NameKind, Names, Remap};
 
 use crate::Level;

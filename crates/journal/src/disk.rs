@@ -1,4 +1,4 @@
-//! Files of this machine, for cores that are made in this process.
+//! The files of this machine, for cores made in a process or in lock-step.
 
 use trench_config::{ConfigError, Origin};
 use trench_core::Files;
@@ -13,8 +13,8 @@ impl Files for Disk {
             origin: Origin::new(path, 0),
             key: key.to_owned(),
             value: path.to_owned(),
-            problem: error.to_string(),
-            remedy: "name a file that can be read".to_owned(),
+            problem: format!("cannot be read: {error}"),
+            remedy: "name a file that exists and is text".to_owned(),
         })
     }
 }

@@ -1,0 +1,49 @@
+//! From what a command line says about parameters to those of a node.
+
+use super::{Arguments, Names, ParameterSource};
+use trench_config::params::{self, Source};
+use trench_config::{ConfigError, ParameterDescriptor, Parameters};
+
+/// Names topics meant for this host that the process also sends over the network.
+pub const PUBLISH_OVER_NETWORK: &str = "publish_over_network";
+
+/// The parameters that every process has besides its node's own.
+#[must_use]
+pub fn process_parameters() -> [ParameterDescriptor; 2] {
+    let clock = "whether /clock is this node's time";
+    let network = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
+    [
+        ParameterDescriptor::bool(params::USE_SIM_TIME, false, clock).read_only(),
+        ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], network).read_only(),
+    ]
+}
+
+impl Arguments {
+    /// The parameters of the node that `names` names, declared by `descriptors`; `read` gives the text of a parameter
+    /// file.
+    ///
+    /// # Errors
+    /// The first file that cannot be read, or else all that is wrong with the values.
+    pub fn resolve_parameters(
+        &self,
+        names: &Names<'_>,
+        descriptors: &[ParameterDescriptor],
+        read: impl Fn(&str) -> Result<String, ConfigError>,
+    ) -> Result<Parameters, Vec<ConfigError>> {
+        let text = |source: &ParameterSource| match source {
+            ParameterSource::File(path) => read(path),
+            ParameterSource::Override { .. } => Ok(String::new()),
+        };
+        let texts: Vec<String> =
+            self.parameters.iter().map(text).collect::<Result<_, _>>().map_err(|error| vec![error])?;
+        let sources: Vec<Source<'_>> = self.parameters.iter().zip(&texts).map(as_source).collect();
+        params::resolve(&sources, &names.namespace, &names.node, descriptors)
+    }
+}
+
+fn as_source<'a>((source, text): (&'a ParameterSource, &'a String)) -> Source<'a> {
+    match source {
+        ParameterSource::File(name) => Source::File { name, text },
+        ParameterSource::Override { node, name, value } => Source::Override { node: node.as_deref(), name, value },
+    }
+}
