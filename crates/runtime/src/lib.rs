@@ -26,4 +26,4 @@ mod transport;
 
 pub use exit::Exit;
 pub use run::{run, run_with_arguments, run_without_journal};
-pub use transport::TransportError;
+pub use transport::{TransportError, forget_shared_memory};

@@ -152,7 +152,7 @@ fn publication(
         }
     };
     let name = TopicName::message(&topic, type_name);
-    let mut publication = Publication::new(topic, to.participant.writer(node, &name, advertise.qos)?);
+    let mut publication = Publication::new(topic, advertise.qos, to.participant.writer(node, &name, advertise.qos)?);
     if let Some(local) = local {
         publication.share(local, to_network);
     }

@@ -1,6 +1,6 @@
 //! Bringing what arrived to the core.
 
-use super::{Node, Subscription, Wake};
+use super::{Node, Publication, Subscription, Wake};
 use crate::transport::shared_memory::Host;
 use std::time::Instant;
 use trench_core::{Event, RosTime, Steady};
@@ -22,6 +22,7 @@ impl Node {
 
     /// The last one.
     pub(crate) fn shut_down(&mut self) {
+        self.ports.publications.iter_mut().for_each(Publication::say_last_words);
         self.handle(Event::Shutdown);
     }
 

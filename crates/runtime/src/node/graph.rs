@@ -20,6 +20,7 @@ impl Node {
                 self.ports.callers.iter_mut().for_each(|caller| caller.service.readers_changed(*writer, readers));
                 let servers = self.ports.servers.iter_mut().chain(self.parameters.services());
                 servers.for_each(|server| server.readers_changed(*writer, readers));
+                self.ports.publications.iter_mut().for_each(|topic| topic.readers_changed(*writer, readers));
             }
             GraphChange::Writer { topic, type_name } => self.look_at_writer(topic, type_name),
             GraphChange::Incompatible { local, remote } => {

@@ -1,10 +1,12 @@
 //! One node in its process: the core, what it reads and what it writes.
 
+mod audience;
 mod caller;
 mod connect;
 mod deliver;
 mod early;
 mod graph;
+mod held;
 mod parameters;
 mod ports;
 mod publication;

@@ -75,8 +75,15 @@ impl Ports {
 impl Sink for Ports {
     fn publish_with(&mut self, port: usize, max_len: usize, fill: &mut dyn FnMut(&mut [u8]) -> usize) {
         let Some(publication) = self.publications.get_mut(port) else { return };
-        let text = match publication.publish_with(max_len, fill) {
-            Ok(()) => return,
+        let before = publication.alone_with();
+        let result = publication.publish_with(self.clock.now().steady, max_len, fill);
+        let (topic, now) = (publication.topic(), publication.alone_with());
+        let turned = (now != before).then(|| match now {
+            Some(readers) => format!("{topic}: the network rests, {readers} reader(s) share memory"),
+            None => format!("{topic}: over the network too"),
+        });
+        let text = match result {
+            Ok(()) => return turned.into_iter().for_each(|text| self.log(Level::Debug, &text)),
             Err(PublishProblem::SharedMemory(problem)) => format!("{}: shared memory: {problem}", publication.topic()),
             // Told at 1, 2, 4, ...: a reader this far behind stays so for a while.
             Err(PublishProblem::Congested) if publication.refused().is_power_of_two() => format!(

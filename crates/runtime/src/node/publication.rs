@@ -1,20 +1,38 @@
 //! A topic that the node writes.
 
+use super::audience::Audience;
+use super::held::Held;
 use crate::transport::dds::NetworkWriter;
 use crate::transport::shared_memory::SharedWriter;
+use rustdds::GUID;
 use rustdds::bytes::Bytes;
+use std::collections::BTreeSet;
 use std::time::Duration;
-use trench_core::Source;
+use trench_core::{Durability, Qos, Reliability, Source, Steady};
 
 /// Both ends of the same publication: this host's and the network's.
 pub(crate) struct Publication {
     topic: String,
+    qos: Qos,
     network: NetworkWriter,
+    local: Option<Local>,
     /// False where only readers of this host get the messages.
     to_network: bool,
-    local: Option<SharedWriter>,
+    /// The last messages of a life go all ways there are.
+    last_words: bool,
     sent: u64,
     refused: u64,
+}
+
+/// This host's end.
+struct Local {
+    writer: SharedWriter,
+    /// How many readers there were when `audience` was looked at.
+    readers: usize,
+    audience: Audience,
+    held: Held,
+    /// Whether the network rested at the last message.
+    alone: bool,
 }
 
 /// Why a message was not published as it should.
@@ -28,19 +46,35 @@ pub(crate) enum PublishProblem {
 
 impl Publication {
     /// To the network alone, unless [`Publication::share`] follows.
-    pub(crate) fn new(topic: String, network: NetworkWriter) -> Self {
-        Self { topic, network, to_network: true, local: None, sent: 0, refused: 0 }
+    pub(crate) fn new(topic: String, qos: Qos, network: NetworkWriter) -> Self {
+        Self { topic, qos, network, local: None, to_network: true, last_words: false, sent: 0, refused: 0 }
     }
 
     /// Serves readers of this host through shared memory, and others only if `to_network`.
-    pub(crate) fn share(&mut self, local: SharedWriter, to_network: bool) {
-        self.local = Some(local);
+    pub(crate) fn share(&mut self, writer: SharedWriter, to_network: bool) {
+        let held = Held::new(writer.buffered() / 2);
+        self.local = Some(Local { writer, readers: 0, audience: Audience::default(), held, alone: false });
         self.to_network = to_network;
+    }
+
+    /// Follows who reads the topic on the network.
+    pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
+        if let Some(local) = self.local.as_mut().filter(|_| writer == self.network.guid()) {
+            local.audience.matched(readers.iter().map(|reader| reader.to_bytes()).collect());
+            // A reader that has just come did not ask for the past.
+            local.held.clear();
+        }
+    }
+
+    /// From now on every message goes all ways: who speaks them may be gone before they are heard.
+    pub(crate) fn say_last_words(&mut self) {
+        self.last_words = true;
     }
 
     /// Publishes what `fill` writes into `max_len` bytes.
     pub(crate) fn publish_with(
         &mut self,
+        now: Steady,
         max_len: usize,
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
     ) -> Result<(), PublishProblem> {
@@ -48,40 +82,56 @@ impl Publication {
             self.refused += 1;
             return Err(PublishProblem::Congested);
         }
-        let (message, problem) = match &self.local {
-            Some(local) => self.publish_locally(local, max_len, fill),
-            None => (Some(encode(max_len, fill)), None),
-        };
+        // Before the message is written: a reader that comes meanwhile gets it from the network.
+        let alone = self.shares_memory();
         self.sent += 1;
-        if let Some(message) = message {
-            self.network.write(message).map_err(|_congested| PublishProblem::Congested)?;
+        let Some(local) = &mut self.local else {
+            return self.network.write_counted(encode(max_len, fill), self.sent).map_err(|_| PublishProblem::Congested);
+        };
+        local.alone = alone;
+        let source = Source { gid: self.network.gid(), sequence: self.sent };
+        let may_be_missed = self.qos.reliability == Reliability::BestEffort;
+        let wants_copy = self.to_network && !(alone && may_be_missed);
+        let mut copy = None;
+        let keep = |message: &[u8]| copy = wants_copy.then(|| Bytes::copy_from_slice(message));
+        let written = local.writer.publish_with(source, max_len, fill, keep);
+        let all_woken = written.as_ref().is_ok_and(|woken| *woken >= local.readers);
+        let problem = written.err();
+        if problem.is_some() && self.to_network && copy.is_none() {
+            copy = Some(encode(max_len, fill));
+        }
+        if let Some(message) = copy {
+            let burst = local.held.keep(self.sent, message, now);
+            if burst || !alone || !all_woken {
+                for (count, message) in local.held.release(now) {
+                    self.network.write_counted(message, count).map_err(|_congested| PublishProblem::Congested)?;
+                }
+            }
         }
         problem.map_or(Ok(()), |problem| Err(PublishProblem::SharedMemory(problem)))
     }
 
-    /// Writes into shared memory; gives what the network gets.
-    fn publish_locally(
-        &self,
-        local: &SharedWriter,
-        max_len: usize,
-        fill: &mut dyn FnMut(&mut [u8]) -> usize,
-    ) -> (Option<Bytes>, Option<String>) {
-        let source = Source { gid: self.network.gid(), sequence: self.sent + 1 };
-        let mut network_copy = None;
-        let copy = |message: &[u8]| {
-            if self.to_network {
-                network_copy = Some(Bytes::copy_from_slice(message));
-            }
-        };
-        match local.publish_with(source, max_len, fill, copy) {
-            Ok(()) => (network_copy, None),
-            Err(problem) => (network_copy.or_else(|| self.to_network.then(|| encode(max_len, fill))), Some(problem)),
+    /// Whether shared memory reaches all readers, so that the network may rest. Readers of latched topics may come later
+    /// and want the past, which the network keeps for them.
+    fn shares_memory(&mut self) -> bool {
+        let Some(local) = &mut self.local else { return false };
+        let readers = local.writer.readers();
+        if readers != local.readers {
+            local.readers = readers;
+            local.audience.served(local.writer.gids());
         }
+        !self.last_words && self.qos.durability == Durability::Volatile && local.audience.shares_memory()
     }
 
     /// The absolute name.
     pub(crate) fn topic(&self) -> &str {
         &self.topic
+    }
+
+    /// Whether the last message went through shared memory alone although it may go over the network, and to how many
+    /// readers there.
+    pub(crate) fn alone_with(&self) -> Option<usize> {
+        self.local.as_ref().filter(|local| local.alone && self.to_network).map(|local| local.readers)
     }
 
     /// How many messages the network did not take.

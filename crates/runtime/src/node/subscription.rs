@@ -98,8 +98,9 @@ impl Subscription {
             return Ok(false);
         }
         self.retry = (left > 1).then(|| (now.plus_seconds(RETRY_SECONDS), left - 1));
-        self.local =
-            host.reader(&self.shared_name, self.qos, registry, self.local_token).map_err(|error| error.to_string())?;
+        self.local = host
+            .reader(&self.shared_name, self.qos, self.network.gid(), registry, self.local_token)
+            .map_err(|error| error.to_string())?;
         if self.local.is_some() {
             self.retry = None;
         }
@@ -168,7 +169,12 @@ impl Subscription {
         while let Some((taken, until)) = self.next_local(now) {
             let sample = match taken {
                 Ok(sample) => sample,
-                Err(problem) => return report(problem),
+                Err(problem) => {
+                    // The network goes on as soon as the writer sees that this reader is gone from shared memory.
+                    self.local = None;
+                    self.look_for_writer();
+                    return report(problem);
+                }
             };
             if !self.delivered.is_new(sample.source()) {
                 continue;

@@ -10,3 +10,4 @@ pub(crate) mod shared_memory;
 
 pub(crate) use delivered::Delivered;
 pub use error::TransportError;
+pub use shared_memory::forget_shared_memory;

@@ -1,7 +1,6 @@
 //! Real processes for the tests: the talker and the listener of the examples.
 
 use std::io::{BufRead, BufReader, Read};
-use std::os::unix::fs::MetadataExt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
@@ -46,25 +45,37 @@ impl Island {
 
     /// Starts an example.
     pub(crate) fn start(&self, example: &str, arguments: &str) -> Running {
-        let mut child = self.command(example, arguments).spawn().unwrap();
+        Self::run(self.command(example, arguments))
+    }
+
+    /// Starts an example as if on another host: it has the network alone in common with the others.
+    pub(crate) fn start_apart(&self, example: &str, arguments: &str) -> Running {
+        let mut command = self.command(example, arguments);
+        command.env("TRENCH_SHM_PREFIX", format!("{}_apart", self.name));
+        Self::run(command)
+    }
+
+    fn run(mut command: Command) -> Running {
+        let mut child = command.spawn().unwrap();
         let lines = follow(child.stdout.take().unwrap());
         let errors = follow(child.stderr.take().unwrap());
         Running { child, lines, errors }
     }
 }
 
+impl Island {
+    /// Takes away all files of shared memory, whoever uses them.
+    pub(crate) fn remove_shared_memory(&self) {
+        for prefix in [self.name.clone(), format!("{}_apart", self.name)] {
+            trench_runtime::forget_shared_memory(&prefix).unwrap();
+        }
+    }
+}
+
 impl Drop for Island {
     /// A process that was killed leaves its shared memory to the next one of its island, and there is none.
     fn drop(&mut self) {
-        let mark = format!("_{}_", self.name);
-        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
-            if entry.file_name().to_string_lossy().contains(&mark) {
-                let _already_gone = std::fs::remove_file(entry.path());
-            }
-        }
-        let user = std::fs::metadata("/proc/self").unwrap().uid();
-        let folder = std::env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{}", self.name));
-        let _never_made = std::fs::remove_dir_all(folder);
+        self.remove_shared_memory();
     }
 }
 
@@ -85,6 +96,11 @@ impl Running {
             }
         }
         panic!("`{text}` was never logged");
+    }
+
+    /// The process.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
     }
 
     /// Sends a signal.

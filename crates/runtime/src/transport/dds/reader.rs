@@ -47,14 +47,21 @@ impl NetworkReader {
     pub(crate) fn guid(&self) -> GUID {
         self.reader.guid()
     }
+
+    /// This reader's identity on the network.
+    pub(crate) fn gid(&self) -> [u8; 16] {
+        gid(self.guid())
+    }
 }
 
 fn sample(change: DeserializedCacheChange<RawMessage>) -> NetworkSample {
     let identity = SampleIdentity { writer_guid: change.writer_guid, sequence_number: change.sequence_number };
-    // RTPS counts from 1 and never below.
-    let sequence = u64::try_from(i64::from(change.sequence_number)).unwrap_or(0);
-    let source = Source { gid: gid(change.writer_guid), sequence };
     let related = change.related_sample_identity();
+    // A writer of ours whose network has rested says its own count.
+    let own = related.filter(|related| related.writer_guid == change.writer_guid);
+    // RTPS counts from 1 and never below.
+    let sequence = i64::from(own.map_or(change.sequence_number, |own| own.sequence_number));
+    let source = Source { gid: gid(change.writer_guid), sequence: u64::try_from(sequence).unwrap_or(0) };
     NetworkSample { source, identity, related, cdr: change.into_value().0 }
 }
 

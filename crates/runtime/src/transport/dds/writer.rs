@@ -3,7 +3,7 @@
 use super::raw::{RawAdapter, RawMessage};
 use rustdds::bytes::Bytes;
 use rustdds::no_key::DataWriter;
-use rustdds::{GUID, RTPSEntity, SampleIdentity, Timestamp, WriteOptions, WriteOptionsBuilder};
+use rustdds::{GUID, RTPSEntity, SampleIdentity, SequenceNumber, Timestamp, WriteOptions, WriteOptionsBuilder};
 use std::collections::VecDeque;
 use std::time::Duration;
 
@@ -42,6 +42,17 @@ impl NetworkWriter {
         self.write_with(message, WriteOptionsBuilder::new())
     }
 
+    /// Takes a message that is number `count` of its writer, where the network did not get all before it. Readers of
+    /// ours are told its own count where the network's differs.
+    pub(crate) fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
+        let mut options = WriteOptionsBuilder::new();
+        if count != self.accepted + 1 {
+            let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
+            options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
+        }
+        self.write_with(message, options).map(|_accepted| ())
+    }
+
     /// Like [`NetworkWriter::write`], saying which request a response answers.
     pub(super) fn write_related(&mut self, message: Bytes, related: SampleIdentity) -> Result<u64, Congested> {
         self.write_with(message, WriteOptionsBuilder::new().related_sample_identity(related))
@@ -75,7 +86,7 @@ impl NetworkWriter {
         let _given_up = self.writer.wait_for_acknowledgments(max_wait);
     }
 
-    pub(super) fn guid(&self) -> GUID {
+    pub(crate) fn guid(&self) -> GUID {
         self.writer.guid()
     }
 }

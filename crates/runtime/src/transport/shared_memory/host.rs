@@ -1,6 +1,6 @@
 //! A process's place in the shared memory of its host.
 
-use super::{Header, SharedReader, SharedWriter};
+use super::{Header, SharedReader, SharedWriter, places};
 use crate::transport::TransportError;
 use iceoryx2::prelude::{
     Config, FileName, LogLevel, Node, NodeBuilder, Path, SemanticString, ServiceName, SignalHandlingMode, ipc,
@@ -53,15 +53,17 @@ impl Host {
             .map_err(|reason| TransportError::endpoint(&topic.0, &reason))
     }
 
-    /// Opens a topic for reading; `None` while no process of this host writes it.
+    /// Opens a topic for reading by the reader that is `gid` on the network; `None` while no process of this host writes
+    /// it.
     pub(crate) fn reader(
         &self,
         topic: &SharedTopic,
         qos: Qos,
+        gid: [u8; 16],
         registry: &Registry,
         token: Token,
     ) -> Result<Option<SharedReader>, TransportError> {
-        SharedReader::open(&self.node, &topic.service()?, qos, registry, token)
+        SharedReader::open(&self.node, &topic.service()?, qos, gid, registry, token)
             .map_err(|reason| TransportError::endpoint(&topic.0, &reason))
     }
 }
@@ -75,11 +77,10 @@ impl SharedTopic {
 /// Files of our own name and folder: iceoryx2's default configuration would be looked for in the folder `config` of
 /// wherever the process was started, and users of one host would meet in one folder.
 fn config(prefix: &str) -> Result<Config, String> {
-    let user = rustix::process::getuid().as_raw();
     let mut config = Config::default();
     let wrong = |error| format!("TRENCH_SHM_PREFIX is `{prefix}`: {error:?}; use letters and digits");
-    config.global.prefix = FileName::new(format!("trench_{user}_{prefix}_").as_bytes()).map_err(wrong)?;
-    let root = env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{prefix}"));
+    config.global.prefix = FileName::new(places::file_prefix(prefix).as_bytes()).map_err(wrong)?;
+    let root = places::folder(prefix);
     let root =
         Path::new(root.as_os_str().as_encoded_bytes()).map_err(|error| format!("{}: {error:?}", root.display()))?;
     config.global.set_root_path(&root);

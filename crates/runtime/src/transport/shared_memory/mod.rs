@@ -5,11 +5,14 @@
 
 mod header;
 mod host;
+mod identity;
 mod limits;
+mod places;
 mod reader;
 mod writer;
 
 pub(crate) use host::{Host, SharedTopic};
+pub use places::forget_shared_memory;
 pub(crate) use reader::{SharedReader, SharedSample};
 pub(crate) use writer::SharedWriter;
 

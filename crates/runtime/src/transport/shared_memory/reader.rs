@@ -1,6 +1,7 @@
 //! The shared-memory end of a subscription.
 
-use super::Header;
+use super::{Header, identity};
+use iceoryx2::port::DegradationAction;
 use iceoryx2::port::listener::Listener;
 use iceoryx2::port::subscriber::Subscriber;
 use iceoryx2::prelude::{FileDescriptorBased, Node, PortFactory, ServiceName, ipc};
@@ -25,6 +26,7 @@ impl SharedReader {
         node: &Node<ipc::Service>,
         name: &ServiceName,
         qos: Qos,
+        gid: [u8; 16],
         registry: &Registry,
         token: Token,
     ) -> Result<Option<Self>, String> {
@@ -46,6 +48,9 @@ impl SharedReader {
             .subscriber_builder()
             .buffer_size(limits.subscriber_max_buffer_size().min(newest.max(history)))
             .history_request(history.min(limits.history_size()))
+            .name(&identity::name(gid)?)
+            // A writer that cannot be reached here must be heard over the network: silence would be worse.
+            .set_degradation_handler(|_cause, _where| DegradationAction::DegradeAndFail)
             .create()
             .map_err(|error| format!("{error:?}"))?;
         let listener = wakeups.listener_builder().create().map_err(|error| format!("{error:?}"))?;

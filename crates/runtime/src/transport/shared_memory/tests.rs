@@ -16,14 +16,7 @@ struct Pair {
 impl Drop for Pair {
     /// The node's management file has no next node of this prefix to use it.
     fn drop(&mut self) {
-        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
-            if entry.file_name().to_string_lossy().contains(&format!("_{}_", self.prefix)) {
-                let _already_gone = std::fs::remove_file(entry.path());
-            }
-        }
-        let user = rustix::process::getuid().as_raw();
-        let folder = std::env::temp_dir().join(format!("trench-{user}")).join(format!("shared_memory{}", self.prefix));
-        let _already_gone = std::fs::remove_dir_all(folder);
+        forget_shared_memory(&self.prefix).unwrap();
     }
 }
 
@@ -40,7 +33,7 @@ impl Pair {
     }
 
     fn reader(&self, qos: Qos) -> Option<SharedReader> {
-        self.host.reader(&self.topic, qos, self.poll.registry(), Token(3)).unwrap()
+        self.host.reader(&self.topic, qos, [4; 16], self.poll.registry(), Token(3)).unwrap()
     }
 }
 

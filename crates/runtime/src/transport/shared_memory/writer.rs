@@ -1,41 +1,65 @@
 //! The shared-memory end of a publication.
 
-use super::Header;
 use super::host::Topic;
 use super::limits::{Limits, NODES};
+use super::{Header, identity};
 use iceoryx2::port::notifier::Notifier;
 use iceoryx2::port::publisher::Publisher;
-use iceoryx2::prelude::{AllocationStrategy, Node, ServiceName, ipc};
+use iceoryx2::prelude::{AllocationStrategy, CallbackProgression, Node, PortFactory, ServiceName, ipc};
 use iceoryx2::service::port_factory::event;
+use std::collections::BTreeSet;
 use trench_core::{Durability, Qos, Source};
 
 /// Writes messages into memory that the readers see.
 pub(crate) struct SharedWriter {
+    topic: Topic,
     publisher: Publisher<ipc::Service, [u8], Header>,
     notifier: Notifier<ipc::Service>,
 }
 
 impl SharedWriter {
     pub(super) fn new(node: &Node<ipc::Service>, name: &ServiceName, max_len: usize, qos: Qos) -> Result<Self, String> {
-        let publisher = topic(node, name, Limits::of(max_len, qos), qos)?
+        let topic = topic(node, name, Limits::of(max_len, qos), qos)?;
+        let publisher = topic
             .publisher_builder()
             .initial_max_slice_len(max_len.max(1))
             .allocation_strategy(AllocationStrategy::PowerOfTwo)
             .create()
             .map_err(|error| format!("{error:?}"))?;
         let notifier = wakeups(node, name)?.notifier_builder().create().map_err(|error| format!("{error:?}"))?;
-        Ok(Self { publisher, notifier })
+        Ok(Self { topic, publisher, notifier })
+    }
+
+    /// How many messages wait for a busy reader before the oldest is overwritten.
+    pub(crate) fn buffered(&self) -> usize {
+        self.topic.static_config().subscriber_max_buffer_size()
+    }
+
+    /// How many readers there are.
+    pub(crate) fn readers(&self) -> usize {
+        self.topic.dynamic_config().number_of_subscribers()
+    }
+
+    /// The readers' identities on the network.
+    pub(crate) fn gids(&self) -> BTreeSet<[u8; 16]> {
+        let mut gids = BTreeSet::new();
+        self.topic.dynamic_config().list_subscribers(|reader| {
+            gids.extend(identity::gid(&reader.subscriber_name));
+            CallbackProgression::Continue
+        });
+        gids
     }
 
     /// Publishes what `fill` writes into at most `max_len` loaned bytes, giving its length; `copy` sees the message
-    /// once more before the readers do.
+    /// once more before the readers do. Gives how many readers were woken: one that died without a word cannot be, nor
+    /// one whose files were taken away.
     pub(crate) fn publish_with(
         &self,
         source: Source,
         max_len: usize,
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
         copy: impl FnOnce(&[u8]),
-    ) -> Result<(), String> {
+    ) -> Result<usize, String> {
         let loan = self.publisher.loan_slice_uninit(max_len.max(1)).map_err(|error| format!("{error:?}"))?;
         #[expect(
             unsafe_code,
@@ -46,9 +70,7 @@ impl SharedWriter {
         *sample.user_header_mut() = Header { gid: source.gid, sequence: source.sequence, length: length as u64 };
         copy(&sample.payload()[..length]);
         sample.send().map_err(|error| format!("{error:?}"))?;
-        // A reader that died without a word cannot be woken; the others have been.
-        let _partly = self.notifier.notify();
-        Ok(())
+        self.notifier.notify().map_err(|error| format!("cannot wake the readers: {error:?}"))
     }
 }
 
