@@ -86,13 +86,13 @@ fn a_reader_that_loses_shared_memory_goes_on_over_the_network() {
     let mut last = first;
     // Two writers count each for itself: the second is far behind.
     let mut of_second = 0;
-    while last < first + 120 || of_second < 2 {
+    while last < first + 120 || of_second < 3 {
         let count = next(&listener);
         if count > last {
             assert_eq!(count, last + 1, "a message is missing");
             last = count;
         } else {
-            assert_eq!(count, of_second + 1, "a message came twice or is missing");
+            assert!(of_second == 0 || count == of_second + 1, "a message came twice or is missing");
             of_second = count;
         }
     }
@@ -114,15 +114,19 @@ fn frames_go_over_the_network_on_demand() {
     let (_, heard, _) = far.end();
     assert_eq!(heard, Vec::<String>::new(), "frames that nobody asked for");
 
-    // With the parameter, a viewer that comes late gets them, and only while it is there.
-    let _near = near;
+    // With the parameter, a viewer that comes late gets them.
     let public = island.start("talker", &format!("{frames} -p publish_over_network:=[\"/chatter\"]"));
-    public.wait_for_log(RESTS);
+    let reached = loop {
+        // What the first talker said last may still come.
+        let count = next(&near);
+        if count < 10 {
+            break count;
+        }
+    };
     let viewer = island.start_apart("listener", "");
-    public.wait_for_log(GOES_ON);
     let first = next(&viewer);
+    assert!(first > reached, "a new reader of a topic that is not latched gets no past");
     read_to(&viewer, first + 5);
-    viewer.signal("INT");
-    assert_eq!(viewer.end().0, 0);
-    public.wait_for_log(RESTS);
+    read_to(&near, first + 5);
+    drop(public);
 }

@@ -140,21 +140,21 @@ fn publication(
     let type_name = advertise.type_info.name;
     // Shared memory first: readers look for it as soon as they hear of the topic's network end.
     let mut shared = |max_len| shared_writer(&topic, type_name, max_len, advertise.qos, equipment, to);
-    let (local, to_network) = match advertise.local {
-        Local::NetworkOnly => (None, true),
-        Local::SharedMemory { max_len } => (shared(max_len), true),
+    let (local, max_len, to_network) = match advertise.local {
+        Local::NetworkOnly => (None, 0, true),
+        Local::SharedMemory { max_len } => (shared(max_len), max_len, true),
         Local::SharedMemoryOnly { max_len } => {
             let local = shared(max_len);
             let wanted = equipment.publish_over_network.iter().any(|name| name == "*" || *name == topic);
             // Where there is no shared memory, a slow image is better than none.
             let to_network = wanted || local.is_none();
-            (local, to_network)
+            (local, max_len, to_network)
         }
     };
     let name = TopicName::message(&topic, type_name);
     let mut publication = Publication::new(topic, advertise.qos, to.participant.writer(node, &name, advertise.qos)?);
     if let Some(local) = local {
-        publication.share(local, to_network);
+        publication.share(local, max_len, to_network);
     }
     Ok(publication)
 }

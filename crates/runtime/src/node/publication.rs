@@ -2,7 +2,7 @@
 
 use super::audience::Audience;
 use super::held::Held;
-use crate::transport::dds::NetworkWriter;
+use crate::transport::dds::{LONGEST_COUNTED, NetworkWriter};
 use crate::transport::shared_memory::SharedWriter;
 use rustdds::GUID;
 use rustdds::bytes::Bytes;
@@ -31,6 +31,9 @@ struct Local {
     readers: usize,
     audience: Audience,
     held: Held,
+    /// Whether the network may ever rest. Readers of latched topics may come later and want the past, which the network
+    /// keeps for them; long messages cannot carry the count that the network loses while it rests.
+    may_be_alone: bool,
     /// Whether the network rested at the last message.
     alone: bool,
 }
@@ -51,9 +54,12 @@ impl Publication {
     }
 
     /// Serves readers of this host through shared memory, and others only if `to_network`.
-    pub(crate) fn share(&mut self, writer: SharedWriter, to_network: bool) {
+    /// `max_len`: the longest message, bytes.
+    pub(crate) fn share(&mut self, writer: SharedWriter, max_len: usize, to_network: bool) {
         let held = Held::new(writer.buffered() / 2);
-        self.local = Some(Local { writer, readers: 0, audience: Audience::default(), held, alone: false });
+        let may_be_alone = max_len <= LONGEST_COUNTED && self.qos.durability == Durability::Volatile;
+        self.local =
+            Some(Local { writer, readers: 0, audience: Audience::default(), held, may_be_alone, alone: false });
         self.to_network = to_network;
     }
 
@@ -111,8 +117,7 @@ impl Publication {
         problem.map_or(Ok(()), |problem| Err(PublishProblem::SharedMemory(problem)))
     }
 
-    /// Whether shared memory reaches all readers, so that the network may rest. Readers of latched topics may come later
-    /// and want the past, which the network keeps for them.
+    /// Whether shared memory reaches all readers, so that the network may rest.
     fn shares_memory(&mut self) -> bool {
         let Some(local) = &mut self.local else { return false };
         let readers = local.writer.readers();
@@ -120,7 +125,7 @@ impl Publication {
             local.readers = readers;
             local.audience.served(local.writer.gids());
         }
-        !self.last_words && self.qos.durability == Durability::Volatile && local.audience.shares_memory()
+        local.may_be_alone && !self.last_words && local.audience.shares_memory()
     }
 
     /// The absolute name.

@@ -20,6 +20,6 @@ pub(crate) use participant::{Participant, TopicName};
 pub(crate) use reader::{NetworkReader, NetworkSample};
 pub(crate) use server::{PendingRequest, ServiceServer};
 pub(crate) use status::{GraphChange, StatusReader};
-pub(crate) use writer::NetworkWriter;
+pub(crate) use writer::{LONGEST_COUNTED, NetworkWriter};
 
 use super::TransportError;

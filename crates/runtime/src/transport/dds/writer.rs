@@ -11,6 +11,11 @@ use std::time::Duration;
 /// far behind is not coming back; memory ends somewhere.
 const WAITING: usize = 8192;
 
+/// The longest message that can carry its count, bytes. RustDDS 0.15.1 cuts longer ones into fragments (above 1452 bytes
+/// on an Ethernet), and writes fragments with inline quality of service, which is where the count is, so that nobody
+/// can read them.
+pub(crate) const LONGEST_COUNTED: usize = 1024;
+
 /// The network can take no more: the readers have not acknowledged thousands of messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Congested;
@@ -46,7 +51,7 @@ impl NetworkWriter {
     /// ours are told its own count where the network's differs.
     pub(crate) fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
         let mut options = WriteOptionsBuilder::new();
-        if count != self.accepted + 1 {
+        if count != self.accepted + 1 && message.len() <= LONGEST_COUNTED {
             let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
             options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
         }
