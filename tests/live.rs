@@ -52,7 +52,7 @@ impl Launch {
             .arg("--run-dir")
             .arg(self.folder.path().join("run"))
             .env("ROS_DOMAIN_ID", self.domain.to_string())
-            .env("TRENCH_SHM_PREFIX", format!("live{}_{}_", self.domain, std::process::id()))
+            .env("TRENCH_SHM_PREFIX", self.shared_memory())
             .env("TRENCH_STATE_DIR", self.folder.path().join("state"))
             .output()
             .unwrap();
@@ -72,6 +72,21 @@ impl Launch {
     }
 }
 
+impl Launch {
+    /// The prefix of its shared memory.
+    fn shared_memory(&self) -> String {
+        format!("live{}_{}_", self.domain, std::process::id())
+    }
+}
+
+impl Drop for Launch {
+    fn drop(&mut self) {
+        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory()) {
+            println!("shared memory of the test stays behind: {error}");
+        }
+    }
+}
+
 /// A domain no other test of this run uses at the same time: real-time tests run alone.
 fn domain(offset: u32) -> u32 {
     110 + (std::process::id() % 20) * 4 + offset
@@ -81,10 +96,10 @@ fn no_contact(summary: &RunSummary) {
     assert!(summary.closest.as_ref().unwrap().gap > 0.0, "{summary}");
 }
 
-#[test]
-fn live_triangle_tuned() {
-    let launch = Launch::new(domain(0));
-    let (status, text) = launch.run("triangle.launch.yaml", &["duration:=30.0"]);
+/// Launches an experiment with the default profile and holds its bag against the bounds of that.
+fn tuned_profile_keeps_its_bounds(domain: u32, file: &str) {
+    let launch = Launch::new(domain);
+    let (status, text) = launch.run(file, &["duration:=30.0"]);
     assert!(status.success(), "{status}\n{text}");
     let summary = launch.judge(&[]);
     no_contact(&summary);
@@ -93,6 +108,16 @@ fn live_triangle_tuned() {
     }
     let shape = summary.max_shape_error.unwrap();
     assert!(shape <= 0.02, "shape error {shape} m over the last third of the motion and at rest");
+}
+
+#[test]
+fn live_triangle_tuned() {
+    tuned_profile_keeps_its_bounds(domain(0), "triangle.launch.yaml");
+}
+
+#[test]
+fn live_square_tuned() {
+    tuned_profile_keeps_its_bounds(domain(0), "square.launch.yaml");
 }
 
 #[test]

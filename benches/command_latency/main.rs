@@ -52,6 +52,7 @@ fn launch() -> Result<u8, BenchError> {
     let mut plan = resolve(programs, &folder)?;
     insert_probe(&mut plan, &own, &folder)?;
     let code = trench_launch::supervise(&plan, &Options::new(&folder.join("log")))?.exit_code();
+    trench_runtime::forget_shared_memory(&shared_memory())?;
     std::fs::remove_dir_all(&folder)?;
     Ok(code)
 }
@@ -63,7 +64,7 @@ fn resolve(programs: &Path, folder: &Path) -> Result<Plan, BenchError> {
     let mut additions = BTreeMap::from([
         ("PATH".to_owned(), format!("{}:{path}", programs.display())),
         ("TRENCH_STATE_DIR".to_owned(), folder.join("state").display().to_string()),
-        ("TRENCH_SHM_PREFIX".to_owned(), format!("latency{}_", std::process::id())),
+        ("TRENCH_SHM_PREFIX".to_owned(), shared_memory()),
     ]);
     if !environment.contains_key("ROS_DOMAIN_ID") {
         additions.insert("ROS_DOMAIN_ID".to_owned(), "92".to_owned());
@@ -97,6 +98,11 @@ fn insert_probe(plan: &mut Plan, own: &Path, folder: &Path) -> Result<(), BenchE
     }
     plan.processes.push(probe);
     Ok(())
+}
+
+/// The prefix of the run's shared memory.
+fn shared_memory() -> String {
+    format!("latency{}_", std::process::id())
 }
 
 /// The test bed's port.

@@ -1,6 +1,5 @@
 //! What keeps the processes of one test apart from all others, and the virtual environment of the rclpy ones.
 
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -62,15 +61,8 @@ impl Island {
 impl Drop for Island {
     /// iceoryx2 keeps some bookkeeping for the next process of the island, and there is none.
     fn drop(&mut self) {
-        let mark = format!("_{}_", self.prefix);
-        for entry in std::fs::read_dir("/dev/shm").into_iter().flatten().flatten() {
-            if entry.file_name().to_string_lossy().contains(&mark) {
-                let _already_gone = std::fs::remove_file(entry.path());
-            }
-        }
-        if let Ok(own) = std::fs::metadata("/proc/self") {
-            let folder = format!("trench-{}/shared_memory{}", own.uid(), self.prefix);
-            let _never_made = std::fs::remove_dir_all(std::env::temp_dir().join(folder));
+        if let Err(error) = trench_runtime::forget_shared_memory(&self.prefix) {
+            println!("shared memory of the test stays behind: {error}");
         }
     }
 }

@@ -36,11 +36,17 @@ fn launch(folder: &Path, domain: u32, arguments: &[&str]) -> String {
         .arg(folder.join("run"))
         .args(arguments)
         .env("ROS_DOMAIN_ID", domain.to_string())
-        .env("TRENCH_SHM_PREFIX", format!("replay{domain}_{}_", std::process::id()))
+        .env("TRENCH_SHM_PREFIX", shared_memory(domain))
         .env("TRENCH_STATE_DIR", folder.join("state"))
         .output()
         .unwrap();
+    trench_runtime::forget_shared_memory(&shared_memory(domain)).unwrap();
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// The prefix of the shared memory of a launch in this domain.
+fn shared_memory(domain: u32) -> String {
+    format!("replay{domain}_{}_", std::process::id())
 }
 
 #[test]
@@ -71,7 +77,7 @@ fn live_a_killed_node_loses_less_than_a_second() {
         .args(["--ros-args", "-p", "robots:=[robot1]", "-p"])
         .arg(format!("serial.port:={}", folder.path().join("port").display()))
         .env("ROS_DOMAIN_ID", domain.to_string())
-        .env("TRENCH_SHM_PREFIX", format!("replay{domain}_{}_", std::process::id()))
+        .env("TRENCH_SHM_PREFIX", shared_memory(domain))
         .env("TRENCH_STATE_DIR", folder.path().join("state"))
         .env("TRENCH_JOURNAL_DIR", folder.path().join("journals"))
         .spawn()
@@ -80,6 +86,7 @@ fn live_a_killed_node_loses_less_than_a_second() {
     let killed_at = rustix::time::clock_gettime(rustix::time::ClockId::Monotonic);
     node.kill().unwrap();
     node.wait().unwrap();
+    trench_runtime::forget_shared_memory(&shared_memory(domain)).unwrap();
 
     let journal = JournalReader::open(&folder.path().join("journals/rf_bridge.mcap")).unwrap();
     let last = journal.steps().filter_map(Result::ok).last().unwrap();
