@@ -13,6 +13,15 @@ const GOES_ON: &str = "/chatter: over the network too";
 /// Slow enough for shared memory alone.
 const TALKER: &str = "--ros-args --log-level debug -p rate:=40.0";
 
+/// Starts an example as if on another host: it has the network alone in common with the others.
+fn start_apart(island: &Island, example: &str, arguments: &str) -> Running {
+    let mut command = island.command(example, arguments);
+    let own = command.get_envs().find(|(name, _)| *name == "TRENCH_SHM_PREFIX").and_then(|(_, prefix)| prefix);
+    let prefix = format!("{}_apart", own.unwrap_or_default().display());
+    command.env("TRENCH_SHM_PREFIX", prefix);
+    Island::run(command)
+}
+
 /// The count of the next message. The talker says the count too, so both ways must agree on it.
 #[expect(clippy::unwrap_used, reason = "a test helper")]
 fn next(listener: &Running) -> u64 {
@@ -40,7 +49,7 @@ fn the_network_rests_until_somebody_needs_it() {
     talker.wait_for_log(RESTS);
     let reached = next(&listener);
     // Somebody comes whom shared memory does not reach, and goes again.
-    let apart = island.start_apart("listener", "");
+    let apart = start_apart(&island, "listener", "");
     talker.wait_for_log(GOES_ON);
     let first = next(&apart);
     assert!(first > reached, "a new reader of a topic that is not latched gets no past");
@@ -48,7 +57,7 @@ fn the_network_rests_until_somebody_needs_it() {
     apart.signal("INT");
     assert_eq!(apart.end().0, 0);
     talker.wait_for_log(RESTS);
-    let resumed = island.start_apart("listener", "");
+    let resumed = start_apart(&island, "listener", "");
     let last = next(&resumed);
     read_to(&listener, last);
 }
@@ -79,7 +88,7 @@ fn a_reader_that_loses_shared_memory_goes_on_over_the_network() {
     read_to(&listener, first);
     // No file may be opened any more: the memory of a second writer cannot be mapped, and the reader lets go of all.
     let none = Rlimit { current: Some(0), maximum: Some(4096) };
-    let process = Pid::from_raw(i32::try_from(listener.id()).unwrap()).unwrap();
+    let process = Pid::from_raw(i32::try_from(listener.child.id()).unwrap()).unwrap();
     prlimit(Some(process), Resource::Nofile, none).unwrap();
     let second = island.start("talker", "--ros-args -r __node:=second -p rate:=2.0");
     talker.wait_for_log(GOES_ON);
@@ -104,7 +113,7 @@ fn frames_go_over_the_network_on_demand() {
     let island = Island::new(23);
     let frames = "--ros-args --log-level debug -p rate:=10.0 -p padding:=100000 -p local:=shared_memory_only";
     let near = island.start("listener", "");
-    let far = island.start_apart("listener", "");
+    let far = start_apart(&island, "listener", "");
     let private = island.start("talker", frames);
     read_to(&near, 20);
     private.signal("INT");
@@ -123,7 +132,7 @@ fn frames_go_over_the_network_on_demand() {
             break count;
         }
     };
-    let viewer = island.start_apart("listener", "");
+    let viewer = start_apart(&island, "listener", "");
     let first = next(&viewer);
     assert!(first > reached, "a new reader of a topic that is not latched gets no past");
     read_to(&viewer, first + 5);

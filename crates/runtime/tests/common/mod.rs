@@ -18,7 +18,7 @@ pub(crate) struct Island {
 
 /// A node's process with its lines of output.
 pub(crate) struct Running {
-    child: Child,
+    pub(crate) child: Child,
     lines: Receiver<String>,
     errors: Receiver<String>,
 }
@@ -48,14 +48,8 @@ impl Island {
         Self::run(self.command(example, arguments))
     }
 
-    /// Starts an example as if on another host: it has the network alone in common with the others.
-    pub(crate) fn start_apart(&self, example: &str, arguments: &str) -> Running {
-        let mut command = self.command(example, arguments);
-        command.env("TRENCH_SHM_PREFIX", format!("{}_apart", self.name));
-        Self::run(command)
-    }
-
-    fn run(mut command: Command) -> Running {
+    /// Starts a command made by [`Island::command`].
+    pub(crate) fn run(mut command: Command) -> Running {
         let mut child = command.spawn().unwrap();
         let lines = follow(child.stdout.take().unwrap());
         let errors = follow(child.stderr.take().unwrap());
@@ -96,11 +90,6 @@ impl Running {
             }
         }
         panic!("`{text}` was never logged");
-    }
-
-    /// The process.
-    pub(crate) fn id(&self) -> u32 {
-        self.child.id()
     }
 
     /// Sends a signal.
