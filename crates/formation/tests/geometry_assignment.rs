@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 use proptest::prelude::*;
 use trench_formation::assignment::{
-    AssignmentError, CostMatrix, Hysteresis, assign_to_queues, reassign, robots_per_queue, solve,
+    AssignmentError, CostMatrix, Hysteresis, assign_to_queues, reassign, robots_per_queue, solve, solve_again,
 };
 
 const NONE: Hysteresis = Hysteresis { relative: 0.0, absolute: 0.0 };
@@ -37,6 +37,30 @@ proptest! {
         columns.sort_unstable();
         columns.dedup();
         prop_assert_eq!(columns.len(), costs.rows());
+    }
+
+    /// A start from what was best for other costs finds what is best, and proves it.
+    #[test]
+    fn optima_are_found_again(before in matrices(), after in matrices()) {
+        let again = solve_again(&after, &solve(&before).unwrap()).unwrap();
+        prop_assert_eq!(again.total, solve(&after).unwrap().total);
+        prop_assert_eq!(again.violation(&after), 0.0);
+    }
+
+    #[test]
+    fn large_optima_are_found_again(
+        values in prop::collection::vec(0.0..9.0_f64, 30 * 30),
+        changes in prop::collection::vec(-0.1..0.1_f64, 30 * 30),
+    ) {
+        for rows in [24, 30] {
+            let part = |values: &[f64]| CostMatrix::new(values[..rows * 30].to_vec(), rows, 30).unwrap();
+            let before = part(&values);
+            let changed: Vec<f64> = values.iter().zip(&changes).map(|(value, change)| value + change).collect();
+            let after = part(&changed);
+            let again = solve_again(&after, &solve(&before).unwrap()).unwrap();
+            prop_assert!(again.violation(&after) < 1e-12);
+            prop_assert!((again.total - solve(&after).unwrap().total).abs() < 1e-12);
+        }
     }
 
     #[test]

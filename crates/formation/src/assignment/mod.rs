@@ -3,12 +3,13 @@
 //! Shares become numbers of places ([`robots_per_queue`]); robots get places at the least sum of squared distances, kept
 //! while nothing is clearly better ([`assign_to_queues`], [`reassign`]); the optimum carries its proof ([`Optimum`]).
 mod hysteresis;
+mod search;
 mod shares;
 mod solve;
 
 pub use hysteresis::{Hysteresis, assign_to_queues, reassign};
 pub use shares::robots_per_queue;
-pub use solve::{Optimum, solve};
+pub use solve::{Optimum, solve, solve_again};
 
 use thiserror::Error;
 
@@ -85,6 +86,11 @@ impl CostMatrix {
     /// Number of columns.
     pub fn columns(&self) -> usize {
         self.columns
+    }
+
+    /// Costs of a row in all columns.
+    pub fn row(&self, row: usize) -> &[f64] {
+        &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
     /// Cost of a row in a column.

@@ -1,6 +1,8 @@
-//! Optimal assignment by shortest augmenting paths (D. F. Crouse, "On implementing 2D rectangular assignment
-//! algorithms", IEEE Transactions on Aerospace and Electronic Systems 52(4), 2016). Own code because the dual variables
-//! that certify the optimum are wanted, and no crate returns them.
+//! Optimal assignment by shortest augmenting paths (D. F. Crouse, "On implementing 2D rectangular assignment algorithms", IEEE
+//! Transactions on Aerospace and Electronic Systems 52(4), 2016) behind the row reductions of R. Jonker and A. Volgenant ("A
+//! shortest augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987), which place most
+//! rows. Own code because the dual variables that certify the optimum are wanted, and no crate returns them.
+use super::search::Search;
 use super::{AssignmentError, CostMatrix};
 
 /// A cheapest assignment and the proof that it is one.
@@ -15,7 +17,7 @@ pub struct Optimum {
     pub duals: (Vec<f64>, Vec<f64>),
 }
 
-const FREE: usize = usize::MAX;
+pub(super) const FREE: usize = usize::MAX;
 
 /// Gives each row its own column at the least total cost. Of equally cheap assignments, always the same one for the same
 /// matrix.
@@ -27,85 +29,178 @@ pub fn solve(costs: &CostMatrix) -> Result<Optimum, AssignmentError> {
     if rows > columns {
         return Err(AssignmentError::TooFewPlaces { rows, columns });
     }
-    let mut u = vec![0.0; rows];
-    let mut v = vec![0.0; columns];
-    let mut row_of = vec![FREE; columns];
-    let mut column_of = vec![FREE; rows];
-    for row in 0..rows {
-        let mut search = Search::new(columns);
-        let end = search.shortest_path(costs, row, (&u, &v), &row_of);
-        search.update(row, (&mut u, &mut v), &column_of);
-        let mut column = end;
-        while column != FREE {
-            let from = search.previous[column];
-            row_of[column] = from;
-            column = core::mem::replace(&mut column_of[from], column);
-            if from == row {
-                break;
-            }
-        }
-    }
-    let total = column_of.iter().enumerate().map(|(row, column)| costs.at(row, *column)).sum();
-    Ok(Optimum { columns: column_of, total, duals: (u, v) })
+    // Where all columns are used their prices may be anything, and the least cost of each is a good one.
+    let prices = if rows == columns { least_of_columns(costs) } else { vec![0.0; columns] };
+    Ok(Solver::new(costs, prices).solve().lowered())
 }
 
-/// Dijkstra's search from one row over reduced costs.
-struct Search {
-    distance: Vec<f64>,
-    previous: Vec<usize>,
-    scanned: Vec<bool>,
-    reached: f64,
+/// As [`solve`], for costs that differ little from those of `previous`: its dual variables leave little to do. As optimal, and as
+/// proved, as without; of equally cheap assignments it may give another.
+///
+/// # Errors
+/// More rows than columns.
+pub fn solve_again(costs: &CostMatrix, previous: &Optimum) -> Result<Optimum, AssignmentError> {
+    let fits = previous.columns.len() == costs.rows() && previous.duals.1.len() == costs.columns();
+    if !fits || costs.rows() > costs.columns() || !previous.duals.1.iter().all(|v| *v <= 0.0) {
+        return solve(costs);
+    }
+    let optimum = Solver::new(costs, previous.duals.1.clone()).solve();
+    // A column that is no longer used may still have its price: then the proof does not hold.
+    let mut used = vec![false; costs.columns()];
+    optimum.columns.iter().for_each(|column| used[*column] = true);
+    if optimum.duals.1.iter().zip(used).any(|(v, used)| !used && *v != 0.0) {
+        return solve(costs);
+    }
+    Ok(optimum)
 }
 
-impl Search {
-    fn new(columns: usize) -> Self {
-        let (distance, previous) = (vec![f64::INFINITY; columns], vec![FREE; columns]);
-        Self { distance, previous, scanned: vec![false; columns], reached: 0.0 }
+fn least_of_columns(costs: &CostMatrix) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; costs.columns()];
+    for row in 0..costs.rows() {
+        for (least, cost) in least.iter_mut().zip(costs.row(row)) {
+            *least = if cost < least { *cost } else { *least };
+        }
+    }
+    least
+}
+
+/// A partial assignment with dual variables that satisfy all conditions of optimality, at any time.
+struct Solver<'a> {
+    costs: &'a CostMatrix,
+    u: Vec<f64>,
+    v: Vec<f64>,
+    row_of: Vec<usize>,
+    column_of: Vec<usize>,
+}
+
+impl<'a> Solver<'a> {
+    fn new(costs: &'a CostMatrix, v: Vec<f64>) -> Self {
+        let (row_of, column_of) = (vec![FREE; costs.columns()], vec![FREE; costs.rows()]);
+        Self { costs, u: vec![0.0; costs.rows()], v, row_of, column_of }
     }
 
-    /// The nearest free column.
-    fn shortest_path(&mut self, costs: &CostMatrix, from: usize, (u, v): (&[f64], &[f64]), row_of: &[usize]) -> usize {
-        let mut row = from;
-        loop {
-            let mut nearest = FREE;
-            for column in (0..self.distance.len()).filter(|column| !self.scanned[*column]) {
-                let distance = self.reached + costs.at(row, column) - u[row] - v[column];
-                if distance < self.distance[column] {
-                    (self.distance[column], self.previous[column]) = (distance, row);
-                }
-                // Ties go to a free column, which ends the search.
-                let better = nearest == FREE
-                    || self.distance[column] < self.distance[nearest]
-                    || (self.distance[column] == self.distance[nearest]
-                        && row_of[column] == FREE
-                        && row_of[nearest] != FREE);
-                if better {
-                    nearest = column;
-                }
-            }
-            self.reached = self.distance[nearest];
-            self.scanned[nearest] = true;
-            if row_of[nearest] == FREE {
-                return nearest;
-            }
-            row = row_of[nearest];
+    fn solve(mut self) -> Optimum {
+        let mut waiting = self.reduce_rows();
+        for _ in 0..1 {
+            waiting = self.augment_rows(waiting);
         }
+        let mut search = Search::new(self.costs.columns());
+        for row in waiting {
+            let end = search.shortest_path(self.costs, row, (&self.u, &self.v), &self.row_of);
+            search.update(row, (&mut self.u, &mut self.v), &self.row_of);
+            let mut column = end;
+            while column != FREE {
+                let from = search.previous(column);
+                self.row_of[column] = from;
+                column = core::mem::replace(&mut self.column_of[from], column);
+                if from == row {
+                    break;
+                }
+            }
+        }
+        let total = self.column_of.iter().enumerate().map(|(row, column)| self.costs.at(row, *column)).sum();
+        Optimum { columns: self.column_of, total, duals: (self.u, self.v) }
     }
 
-    fn update(&self, from: usize, (u, v): (&mut [f64], &mut [f64]), column_of: &[usize]) {
-        u[from] += self.reached;
-        for (row, column) in column_of.iter().enumerate() {
-            if *column != FREE && self.scanned[*column] {
-                u[row] += self.reached - self.distance[*column];
+    /// Gives each row its cheapest column if that is free; the rows that are left.
+    fn reduce_rows(&mut self) -> Vec<usize> {
+        let mut waiting = Vec::new();
+        for row in 0..self.column_of.len() {
+            let Cheapest { first, column, .. } = self.cheapest(row);
+            self.u[row] = first;
+            if self.row_of[column] == FREE {
+                self.assign(row, column);
+            } else {
+                waiting.push(row);
             }
         }
-        for (column, value) in v.iter_mut().enumerate().filter(|(column, _)| self.scanned[*column]) {
-            *value -= self.reached - self.distance[column];
-        }
+        waiting
     }
+
+    /// Lets each waiting row have its cheapest column, whose price falls until the second cheapest is as good; whoever had the
+    /// column waits.
+    fn augment_rows(&mut self, rows: Vec<usize>) -> Vec<usize> {
+        let (mut waiting, mut moves) = (Vec::new(), 0);
+        for mut row in rows {
+            loop {
+                let cheapest = self.cheapest(row);
+                let Cheapest { first, second, mut column, other } = cheapest;
+                let falls = first < second && second.is_finite();
+                if falls {
+                    self.v[column] -= second - first;
+                } else if self.row_of[column] != FREE && other != FREE && first == second {
+                    column = other;
+                }
+                self.u[row] = if falls { second } else { first };
+                let evicted = self.row_of[column];
+                if evicted != FREE && !falls {
+                    waiting.push(row);
+                    break;
+                }
+                self.assign(row, column);
+                moves += 1;
+                if evicted == FREE {
+                    break;
+                }
+                self.column_of[evicted] = FREE;
+                // Rounding could let two rows outbid each other for ever.
+                if moves > 8 * self.column_of.len() {
+                    waiting.push(evicted);
+                    break;
+                }
+                row = evicted;
+            }
+        }
+        for row in &waiting {
+            self.u[*row] = self.cheapest(*row).first;
+        }
+        waiting
+    }
+
+    fn assign(&mut self, row: usize, column: usize) {
+        self.row_of[column] = row;
+        self.column_of[row] = column;
+    }
+
+    fn cheapest(&self, row: usize) -> Cheapest {
+        let mut found = Cheapest { first: f64::INFINITY, second: f64::INFINITY, column: 0, other: FREE };
+        for (column, (cost, v)) in self.costs.row(row).iter().zip(&self.v).enumerate() {
+            let reduced = cost - v;
+            if reduced < found.second {
+                if reduced < found.first {
+                    found = Cheapest { first: reduced, second: found.first, column, other: found.column };
+                } else {
+                    (found.second, found.other) = (reduced, column);
+                }
+            }
+        }
+        if found.second == f64::INFINITY {
+            found.other = FREE;
+        }
+        found
+    }
+}
+
+/// The least and second least reduced cost of a row, and their columns.
+struct Cheapest {
+    first: f64,
+    second: f64,
+    column: usize,
+    other: usize,
 }
 
 impl Optimum {
+    /// The same with all v_j <= 0, which costs nothing: what the columns give up goes to the rows.
+    fn lowered(mut self) -> Self {
+        let (u, v) = &mut self.duals;
+        let highest = v.iter().copied().fold(0.0, f64::max);
+        if highest > 0.0 {
+            u.iter_mut().for_each(|u| *u += highest);
+            v.iter_mut().for_each(|v| *v -= highest);
+        }
+        self
+    }
+
     /// Greatest violation of the conditions of optimality, in units of cost: 0 up to rounding proves that no assignment
     /// is cheaper (complementary slackness).
     pub fn violation(&self, costs: &CostMatrix) -> f64 {
