@@ -97,6 +97,11 @@ impl<T: Trench> ChainSimulation<T> {
         Ok(())
     }
 
+    /// Time of the tick in force, s: that of the last step.
+    fn tick_time(&self) -> f64 {
+        (self.steps - self.steps % u64::from(self.scenario.steps_per_tick)) as f64 * self.scenario.step
+    }
+
     fn sense(&mut self) -> Result<(), ScenarioError> {
         for index in 0..self.robots.len() {
             self.with_surroundings(index, |agent, around, _| agent.sense(around))?;
@@ -111,8 +116,7 @@ impl<T: Trench> ChainSimulation<T> {
         work: impl FnOnce(&mut Agent<T>, &Surroundings<'_>, PointState) -> R,
     ) -> R {
         let scenario = &self.scenario;
-        let ticks = u64::from(scenario.steps_per_tick);
-        let time = (self.steps - self.steps % ticks) as f64 * scenario.step;
+        let time = self.tick_time();
         let (map_from_segment, motion) = scenario.carriage.at(time);
         let goal = scenario.team_goal.filter(|_| index == 0);
         let around = Surroundings {

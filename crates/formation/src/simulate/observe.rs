@@ -42,6 +42,19 @@ impl<T: Trench> ChainSimulation<T> {
         self.agents.get(rank.saturating_sub(1)).map_or(&[], Agent::fragments)
     }
 
+    /// Least gap between the centre of any robot and any real obstacle now, m; infinite without obstacles.
+    pub fn least_obstacle_gap(&self) -> f64 {
+        let time = self.time();
+        let mut least = f64::INFINITY;
+        for (obstacle, velocity) in self.scenario.obstacles.iter().zip(self.scenario.velocities()) {
+            let outline = obstacle.shape.outline();
+            for robot in &self.robots {
+                least = least.min(outline.approach(robot.position - time * velocity).gap);
+            }
+        }
+        least
+    }
+
     /// Least distance between any two robots now, m.
     pub fn least_distance(&self) -> f64 {
         let mut least = f64::INFINITY;

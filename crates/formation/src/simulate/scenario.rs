@@ -111,13 +111,17 @@ impl<T> ChainScenario<T> {
         self.options.obstacle_velocities.iter().any(|velocity| *velocity != Vector2::zeros())
     }
 
+    /// Velocities of the obstacles in order, without end, m/s.
+    pub(super) fn velocities(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
+        self.options.obstacle_velocities.iter().copied().chain(core::iter::repeat(Vector2::zeros()))
+    }
+
     /// The obstacles at `time` (s).
     pub(super) fn obstacles_at(&self, time: f64) -> Result<Vec<Obstacle>, ScenarioError> {
-        let velocities = self.options.obstacle_velocities.iter().copied().chain(core::iter::repeat(Vector2::zeros()));
         let moved = |(obstacle, velocity): (&Obstacle, Vector2<f64>)| {
             Ok(Obstacle { id: obstacle.id, shape: obstacle.shape.moved(time * velocity)? })
         };
-        self.obstacles.iter().zip(velocities).map(moved).collect()
+        self.obstacles.iter().zip(self.velocities()).map(moved).collect()
     }
 
     /// Velocities of apparent obstacles: each that of its fastest member, m/s.
