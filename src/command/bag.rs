@@ -10,6 +10,8 @@ use trench_core::Qos;
 
 mod check;
 mod info;
+mod node;
+mod play;
 mod record;
 
 /// Records, shows and judges runs in bags (MCAP, as `ros2 bag` and Foxglove read them).
@@ -23,6 +25,8 @@ pub(crate) struct Arguments {
 enum Action {
     /// Records topics into a new bag until it is stopped (Ctrl-C). A killed recorder loses less than a second.
     Record(record::Record),
+    /// Publishes what is in a bag at the pace at which it was recorded, as `ros2 bag play` does.
+    Play(play::Play),
     /// Says what is in a bag: files, duration, topics with types, counts and rates, and what is damaged.
     Info {
         /// A bag's folder or an .mcap file.
@@ -59,6 +63,10 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
     let done = match &arguments.action {
         Action::Record(record) => {
             eprintln!("trench bag: {}", record.run());
+            return ExitCode::FAILURE;
+        }
+        Action::Play(play) => {
+            eprintln!("trench bag: {}", play.run());
             return ExitCode::FAILURE;
         }
         Action::Check(check) => return check.run(),

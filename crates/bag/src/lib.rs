@@ -1,4 +1,4 @@
-//! Bags in rosbag2's MCAP profile: record and read.
+//! Bags in rosbag2's MCAP profile: record, read and play.
 //!
 //! A bag is a folder with `metadata.yaml` and `.mcap` files, as `ros2 bag`, Foxglove, `rosbags` and `mcap-ros2-support`
 //! read and write it. [`BagWriter`] and [`BagReader`] work on bytes and know no message type;
@@ -8,10 +8,12 @@
 
 mod error;
 mod metadata;
+pub mod player;
 mod qos;
 mod reader;
 pub mod recorder;
 pub mod run;
+mod selection;
 mod topic_type;
 mod writer;
 

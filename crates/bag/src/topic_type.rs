@@ -18,3 +18,10 @@ impl From<&'static TypeInfo> for TopicType<'static> {
         Self { name: info.name, hash: info.hash, definition: info.definition }
     }
 }
+
+/// A type that was not known at build time, as ports want it: it lives as long as the process. There are only so many
+/// types in a graph or a bag.
+pub(crate) fn leaked(of: TopicType<'_>) -> &'static TypeInfo {
+    let text = |text: &str| &*Box::leak(text.to_owned().into_boxed_str());
+    Box::leak(Box::new(TypeInfo { name: text(of.name), hash: text(of.hash), definition: text(of.definition) }))
+}

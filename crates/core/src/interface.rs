@@ -96,6 +96,19 @@ impl Advertise {
     }
 }
 
+/// A topic that somebody in the graph writes.
+#[derive(Debug, Clone, Copy)]
+pub struct Discovered<'a> {
+    /// Absolute.
+    pub topic: &'a str,
+    /// For example `nav_msgs/msg/Odometry`.
+    pub type_name: &'a str,
+    /// The type's RIHS01 hash; empty where the writer does not say it.
+    pub type_hash: &'a str,
+    /// What the writer offers.
+    pub qos: Qos,
+}
+
 /// A service that the core answers, or calls.
 #[derive(Debug, Clone)]
 pub struct Serve {
@@ -127,6 +140,8 @@ pub enum ByteStream {
         /// Where the link to the slave goes.
         link: String,
     },
+    /// The keys pressed in the terminal that the process was started from, each at once and without its echo.
+    Keyboard,
 }
 
 /// All that a core is connected to. Indices into these lists are what [`crate::Event`] and [`crate::Sink`] name.

@@ -21,7 +21,9 @@ mod time;
 pub use description::{Build, Files, NodeDescription};
 pub use event::{Event, RequestId, Source};
 pub use health::{Condition, Health};
-pub use interface::{Advertise, ByteStream, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe};
+pub use interface::{
+    Advertise, ByteStream, Discovered, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe,
+};
 pub use name::resolve_name;
 pub use node_core::{NodeContext, NodeCore, StartError};
 pub use outbox::{Action, Outbox};

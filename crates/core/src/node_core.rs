@@ -1,6 +1,6 @@
 //! The trait of all node cores.
 
-use crate::{Event, Interface, Sink, Steady, Times};
+use crate::{Discovered, Event, Interface, Sink, Steady, Subscribe, Times};
 use trench_config::{ConfigError, Parameters};
 
 /// What a core knows of the process it lives in when it is made.
@@ -26,7 +26,7 @@ pub enum StartError {
 
 /// A node without its process.
 pub trait NodeCore: Send {
-    /// What it is connected to. Fixed for the life of the core.
+    /// What it is connected to. Fixed for the life of the core, but for what [`NodeCore::discovered`] adds.
     fn interface(&self) -> &Interface;
 
     /// Handles one event: the only way in, and `sink` the only way out.
@@ -34,6 +34,14 @@ pub trait NodeCore: Send {
 
     /// When it wants [`Event::Wakeup`], if at all. Asked after every event; a time that has passed means at once.
     fn next_wakeup(&self) -> Option<Steady>;
+
+    /// Somebody in the graph writes a topic that the interface does not name: the subscription that the core wants to
+    /// it, if any, now the last of [`Interface::subscriptions`]. Asked once a writer. For tools that read whatever there
+    /// is; a node that acts on what it reads knows its topics beforehand, and neither lock-step runs nor journals ask.
+    fn discovered(&mut self, topic: Discovered<'_>) -> Option<Subscribe> {
+        let _nobody_asked_for = topic;
+        None
+    }
 
     /// Takes a change of parameters while running: all of `parameters` are the values after the change. Refused as a
     /// whole with a reason for the operator, leaving the old ones in force.

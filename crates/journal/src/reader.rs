@@ -97,7 +97,7 @@ impl Step {
 
 /// An iterator over the steps of a journal.
 pub struct Steps<'a> {
-    messages: Messages<'a>,
+    messages: Messages<&'a BagReader>,
     damage: String,
     /// The number that the next message must have.
     next: u32,

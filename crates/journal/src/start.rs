@@ -108,6 +108,7 @@ fn device(stream: &ByteStream) -> String {
     match stream {
         ByteStream::Serial { path, .. } => path.clone(),
         ByteStream::PseudoTerminal { link } => link.clone(),
+        ByteStream::Keyboard => "keyboard".to_owned(),
     }
 }
 

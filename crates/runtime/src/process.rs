@@ -5,13 +5,13 @@ use crate::node::{Node, Wake};
 use crate::signals::Signals;
 use crate::timer::Timer;
 use crate::transport::TransportError;
-use crate::transport::dds::{Participant, StatusReader};
+use crate::transport::dds::{GraphChange, Participant, StatusReader, TopicName};
 use crate::transport::shared_memory::Host;
 use rustdds::mio1::event::Source;
 use rustdds::mio1::{Events, Interest, Poll, Token};
 use std::io;
 use std::time::{Duration, Instant};
-use trench_core::Steady;
+use trench_core::{Discovered, Steady};
 
 /// Tokens of the process's own sources; those of its nodes follow.
 const STATUS: Token = Token(0);
@@ -118,6 +118,27 @@ impl Process {
             for node in &mut self.nodes {
                 node.graph_changed(&change);
             }
+            if let GraphChange::Writer { topic, type_name, type_hash, qos } = &change
+                && let Some((topic, type_name)) = TopicName::ros_message(topic, type_name)
+            {
+                self.discover(Discovered { topic: &topic, type_name: &type_name, type_hash, qos: *qos });
+            }
+        }
+    }
+
+    /// Shows the nodes a topic that somebody writes.
+    fn discover(&mut self, topic: Discovered<'_>) {
+        let mut nodes = std::mem::take(&mut self.nodes);
+        let mut is_new = false;
+        for (index, node) in nodes.iter_mut().enumerate() {
+            match node.discover(topic, index, &mut self.connections()) {
+                Ok(wanted) => is_new |= wanted,
+                Err(error) => node.warn(&error.to_string()),
+            }
+        }
+        self.nodes = nodes;
+        if is_new && let Err(error) = self.participant.announce() {
+            self.nodes.iter_mut().for_each(|node| node.warn(&error.to_string()));
         }
     }
 

@@ -1,22 +1,30 @@
 //! `trench bag record`: becomes the node `bag_recorder`, which lies beside this program.
 
+use super::node::Node;
 use clap::Args;
-use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
-use std::process::Command;
 
 /// What to record, and where.
 #[derive(Args)]
 pub(super) struct Record {
     /// The new bag's folder, which must not exist.
     out: PathBuf,
-    /// Topics: NAME, or NAME:TYPE where the stack does not know the name (/x:std_msgs/msg/Bool).
+    /// Topics: NAME, or NAME:TYPE where it is to be heard before anybody writes it (/x:std_msgs/msg/Bool).
     #[arg(long, value_name = "TOPIC", num_args = 1.., conflicts_with = "all")]
     topics: Vec<String>,
-    /// All topics of the stack, images excepted. This is the default.
-    #[arg(long)]
+    /// All topics of the graph. Without any choice these are recorded too, images excepted.
+    #[arg(short, long)]
     all: bool,
-    /// The robots whose topics belong to all.
+    /// Records topics that a regular expression finds, besides those named.
+    #[arg(short = 'e', long, value_name = "PATTERN")]
+    regex: Option<String>,
+    /// Topics to leave out.
+    #[arg(long, alias = "exclude", value_name = "TOPIC", num_args = 1..)]
+    exclude_topics: Vec<String>,
+    /// Leaves out topics that a regular expression finds.
+    #[arg(short = 'x', long, value_name = "PATTERN")]
+    exclude_regex: Option<String>,
+    /// Robots whose topics are heard before anybody writes them.
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     robots: Vec<String>,
     /// Further arguments of the node, for example `--ros-args -p use_sim_time:=true`.
@@ -27,24 +35,14 @@ pub(super) struct Record {
 impl Record {
     /// Becomes the recorder, and comes back only where that fails, with the reason.
     pub(super) fn run(&self) -> std::io::Error {
-        let program = match std::env::current_exe() {
-            Ok(program) => program.with_file_name("bag_recorder"),
-            Err(error) => return error,
-        };
-        let mut command = Command::new(&program);
-        command.arg("--ros-args").arg("-p").arg(format!("output:={}", quoted(&self.out.to_string_lossy())));
-        for (name, values) in [("topics", &self.topics), ("robots", &self.robots)] {
-            if !values.is_empty() {
-                let values: Vec<_> = values.iter().map(|value| quoted(value)).collect();
-                command.arg("-p").arg(format!("{name}:=[{}]", values.join(", ")));
-            }
-        }
-        let error = command.arg("--").args(&self.node_arguments).exec();
-        std::io::Error::new(error.kind(), format!("{}: {error}", program.display()))
+        let mut node = Node::new("bag_recorder");
+        node.text("output", &self.out.to_string_lossy());
+        node.texts("topics", &self.topics);
+        node.texts("robots", &self.robots);
+        node.value("all", self.all);
+        node.text("regex", self.regex.as_deref().unwrap_or_default());
+        node.texts("exclude_topics", &self.exclude_topics);
+        node.text("exclude_regex", self.exclude_regex.as_deref().unwrap_or_default());
+        node.run(&self.node_arguments)
     }
-}
-
-/// A string as YAML takes it, whatever is in it.
-fn quoted(text: &str) -> String {
-    format!("'{}'", text.replace('\'', "''"))
 }

@@ -7,10 +7,12 @@ mod record;
 mod scan;
 mod summary_section;
 
-use crate::{BagError, TopicType, metadata};
+use crate::{BagError, TopicType, metadata, qos};
 use file::BagFile;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use trench_core::Qos;
 
 pub use order::{BagMessage, Messages};
 
@@ -29,6 +31,8 @@ pub struct Topic {
     pub offered_qos: String,
     /// How many intact messages the bag holds.
     pub message_count: u64,
+    /// The length of the longest of them, bytes.
+    pub largest: usize,
 }
 
 impl Topic {
@@ -36,6 +40,12 @@ impl Topic {
     #[must_use]
     pub fn topic_type(&self) -> TopicType<'_> {
         TopicType { name: &self.type_name, hash: &self.type_hash, definition: &self.definition }
+    }
+
+    /// What all its writers together can promise: reliable, and kept for late readers, where each of them was.
+    #[must_use]
+    pub fn qos(&self) -> Qos {
+        qos::common(&self.offered_qos)
     }
 }
 
@@ -122,8 +132,14 @@ impl BagReader {
 
     /// All intact messages, file by file, in the order of their log times; of equal times in the order of writing.
     #[must_use]
-    pub fn messages(&self) -> Messages<'_> {
-        Messages::new(&self.files)
+    pub fn messages(&self) -> Messages<&Self> {
+        Messages::new(self, 0)
+    }
+
+    /// As [`BagReader::messages`] of a shared bag, from those on that were logged at `from` (ns).
+    #[must_use]
+    pub fn messages_from(self: &Arc<Self>, from: u64) -> Messages<Arc<Self>> {
+        Messages::new(Arc::clone(self), from)
     }
 }
 

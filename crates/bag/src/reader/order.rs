@@ -5,8 +5,9 @@
 
 use super::file::{BagFile, Block};
 use super::record::{self, MessageRecord};
-use crate::BagError;
+use crate::{BagError, BagReader};
 use mcap::records::op;
+use std::borrow::Borrow;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::ops::Deref;
@@ -37,38 +38,47 @@ impl Deref for BagMessage {
     }
 }
 
-/// An iterator over the messages of a bag.
-pub struct Messages<'a> {
-    files: std::slice::Iter<'a, BagFile>,
-    current: Option<FileMessages<'a>>,
+/// An iterator over the messages of a bag, which it borrows or shares.
+pub struct Messages<B> {
+    bag: B,
+    /// The number of the file that comes next.
+    next_file: usize,
+    current: Option<FileMessages>,
+    /// Messages before this log time are left out, ns.
+    from: u64,
 }
 
-impl<'a> Messages<'a> {
-    pub(super) fn new(files: &'a [BagFile]) -> Self {
-        Self { files: files.iter(), current: None }
+impl<B: Borrow<BagReader>> Messages<B> {
+    pub(super) fn new(bag: B, from: u64) -> Self {
+        Self { bag, next_file: 0, current: None, from }
     }
 }
 
-impl Iterator for Messages<'_> {
+impl<B: Borrow<BagReader>> Iterator for Messages<B> {
     type Item = Result<BagMessage, BagError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            if let Some(item) = self.current.as_mut().and_then(FileMessages::next) {
-                if item.is_err() {
+            let files = &self.bag.borrow().files;
+            let current = self.current.as_mut().zip(self.next_file.checked_sub(1).and_then(|last| files.get(last)));
+            match current.and_then(|(current, file)| current.next(file)) {
+                Some(Ok(message)) if message.log_time < self.from => continue,
+                Some(Ok(message)) => return Some(Ok(message)),
+                Some(Err(error)) => {
                     // What follows an error would have a hole before it.
-                    (self.files, self.current) = ([].iter(), None);
+                    (self.next_file, self.current) = (files.len(), None);
+                    return Some(Err(error));
                 }
-                return Some(item);
+                None => {}
             }
-            self.current = Some(FileMessages::new(self.files.next()?));
+            self.current = Some(FileMessages::new(files.get(self.next_file)?, self.from));
+            self.next_file += 1;
         }
     }
 }
 
 /// The messages of one file.
-struct FileMessages<'a> {
-    file: &'a BagFile,
+struct FileMessages {
     /// The blocks not loaded yet, the earliest last.
     waiting: Vec<(usize, Block)>,
     loaded: BinaryHeap<Reverse<Loaded>>,
@@ -83,28 +93,30 @@ struct Loaded {
     messages: Vec<MessageRecord>,
 }
 
-impl<'a> FileMessages<'a> {
-    fn new(file: &'a BagFile) -> Self {
-        let mut waiting: Vec<_> = file.blocks.iter().copied().enumerate().collect();
+impl FileMessages {
+    /// Of those blocks that hold a message logged at `from` or later.
+    fn new(file: &BagFile, from: u64) -> Self {
+        let late_enough = |(_, block): &(usize, Block)| block.last >= from;
+        let mut waiting: Vec<_> = file.blocks.iter().copied().enumerate().filter(late_enough).collect();
         waiting.sort_by_key(|&(place, block)| Reverse((block.first, place)));
-        Self { file, waiting, loaded: BinaryHeap::new(), loaded_bytes: 0 }
+        Self { waiting, loaded: BinaryHeap::new(), loaded_bytes: 0 }
     }
 
     /// Loads every block that may hold a message before the next one.
-    fn load_due(&mut self) -> Result<(), BagError> {
+    fn load_due(&mut self, file: &BagFile) -> Result<(), BagError> {
         while let Some(&(place, block)) = self.waiting.last() {
             if self.loaded.peek().is_some_and(|Reverse(loaded)| loaded.next < block.first) {
                 break;
             }
             self.waiting.pop();
-            let records = self.file.load(&block).map_err(BagError::io(&self.file.path))?;
-            let changed = || BagError::Changed { path: self.file.path.clone(), offset: block.offset };
+            let records = file.load(&block).map_err(BagError::io(&file.path))?;
+            let changed = || BagError::Changed { path: file.path.clone(), offset: block.offset };
             let records = records.ok_or_else(changed)?;
-            let messages = messages_of(self.file, &records);
+            let messages = messages_of(file, &records);
             self.loaded_bytes += cost(&records, &messages);
-            let limit = self.file.memory_limit();
+            let limit = file.memory_limit();
             if self.loaded_bytes > limit && !self.loaded.is_empty() {
-                return Err(BagError::Disorder { path: self.file.path.clone(), limit });
+                return Err(BagError::Disorder { path: file.path.clone(), limit });
             }
             if let Some(next) = messages.last().map(|message| message.log_time) {
                 self.loaded.push(Reverse(Loaded { next, place, block: Arc::new(records), messages }));
@@ -113,13 +125,13 @@ impl<'a> FileMessages<'a> {
         Ok(())
     }
 
-    fn next(&mut self) -> Option<Result<BagMessage, BagError>> {
-        if let Err(error) = self.load_due() {
+    fn next(&mut self, file: &BagFile) -> Option<Result<BagMessage, BagError>> {
+        if let Err(error) = self.load_due(file) {
             return Some(Err(error));
         }
         let Reverse(mut earliest) = self.loaded.pop()?;
         let message = earliest.messages.pop()?;
-        let topic = self.file.channels.get(&message.channel).copied()?;
+        let topic = file.channels.get(&message.channel).copied()?;
         let block = Arc::clone(&earliest.block);
         if let Some(following) = earliest.messages.last() {
             earliest.next = following.log_time;

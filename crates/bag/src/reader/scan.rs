@@ -52,8 +52,8 @@ struct Scan<'a> {
     file: BagFile,
     channels: Channels<'a>,
     damage: Vec<String>,
-    /// Blocks of messages outside chunks, with their channels' counts.
-    loose: Vec<(Block, Vec<u16>)>,
+    /// Blocks of messages outside chunks, with the channel and the length of each message.
+    loose: Vec<(Block, Vec<(u16, usize)>)>,
     finished: bool,
 }
 
@@ -127,7 +127,7 @@ impl Scan<'_> {
             if opcode != op::MESSAGE {
                 self.definition(opcode, records.get(start..end).unwrap_or_default());
             } else if let Some(message) = record::message(&records, start, end)
-                && self.channels.count(message.channel)
+                && self.channels.count(message.channel, message.end - message.start)
             {
                 let (first, last) = span.unwrap_or((message.log_time, message.log_time));
                 span = Some((first.min(message.log_time), last.max(message.log_time)));
@@ -146,14 +146,15 @@ impl Scan<'_> {
     fn loose_message(&mut self, mut record: Block, body: &[u8]) {
         let Some(message) = record::message(body, 0, body.len()) else { return };
         (record.first, record.last) = (message.log_time, message.log_time);
+        let counted = (message.channel, message.end - message.start);
         match self.loose.last_mut() {
-            Some((block, channels)) if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK => {
+            Some((block, messages)) if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK => {
                 block.length += record.length;
                 block.first = block.first.min(record.first);
                 block.last = block.last.max(record.last);
-                channels.push(message.channel);
+                messages.push(counted);
             }
-            _ => self.loose.push((record, vec![message.channel])),
+            _ => self.loose.push((record, vec![counted])),
         }
     }
 
@@ -171,7 +172,7 @@ impl Scan<'_> {
         let expected = body.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes));
         if expected != 0 && self.checksum(offset)? != expected {
             self.damage.push("the data contradict their checksum".to_owned());
-            let lost: usize = self.loose.drain(..).map(|(_, channels)| channels.len()).sum();
+            let lost: usize = self.loose.drain(..).map(|(_, messages)| messages.len()).sum();
             if lost > 0 {
                 self.damage.push(format!("{lost} messages outside chunks are lost: which of them changed is unknown"));
             }
@@ -195,8 +196,8 @@ impl Scan<'_> {
     }
 
     fn report_losses(&mut self, expected: Option<u64>) {
-        for (block, channels) in std::mem::take(&mut self.loose) {
-            let known = channels.into_iter().filter(|&channel| self.channels.count(channel)).count();
+        for (block, messages) in std::mem::take(&mut self.loose) {
+            let known = messages.into_iter().filter(|&(channel, length)| self.channels.count(channel, length)).count();
             if known > 0 {
                 self.file.blocks.push(block);
             }

@@ -3,14 +3,16 @@
 //! It is a node core like any other, so that it runs in a process of its own on whatever transports the process has;
 //! unlike the cores of robots it writes files: that is its output.
 
+mod discovery;
 mod topics;
 
+use crate::selection::{self, Selection};
 use crate::{BagError, BagWriter, Stamp, TopicId, WriteOptions};
 use std::path::Path;
 use topics::subscription;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_core::{Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink, StartError};
-use trench_core::{Steady, Times};
+use trench_core::{Discovered, Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink};
+use trench_core::{StartError, Steady, Subscribe, Times};
 
 /// How often the open chunk's age is looked at, s.
 const LOOK: f64 = 0.1;
@@ -29,18 +31,21 @@ pub fn description() -> NodeDescription {
 }
 
 fn parameters() -> Vec<ParameterDescriptor> {
-    vec![
+    let mut descriptors = vec![
         ParameterDescriptor::string("output", "", "the new bag's folder, which must not exist").read_only(),
         ParameterDescriptor::string_list(
             "topics",
             &[],
-            "topics to record, NAME or NAME:TYPE (the type only where the stack does not know the name); without any, \
-             all topics of the stack and of its robots, images excepted",
+            "topics to record, NAME or NAME:TYPE (the type where it is to be heard before anybody writes it); without \
+             any and without `regex`, all that are written, images excepted",
         )
         .read_only(),
-        ParameterDescriptor::string_list("robots", &[], "the robots whose topics to record when `topics` is empty")
+        ParameterDescriptor::string_list("robots", &[], "robots whose topics are heard before anybody writes them")
             .read_only(),
-    ]
+        ParameterDescriptor::bool("all", false, "whether images are recorded too").read_only(),
+    ];
+    descriptors.extend(selection::parameters());
+    descriptors
 }
 
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
@@ -48,17 +53,23 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     if output.is_empty() {
         return Err(parameters.error("output", "is empty", "name the new bag's folder").into());
     }
-    let mut names = parameters.str_list("topics")?.to_vec();
-    if names.is_empty() {
-        names = topics::usual(parameters.str_list("robots")?);
-    }
-    let subscriptions: Result<Vec<_>, _> = names.iter().map(|name| subscription(name)).collect();
+    let asked = parameters.str_list("topics")?;
+    let names = asked.iter().map(|asked| topics::name(asked).to_owned()).collect();
+    let selection = Selection::new(names, parameters)?;
+    let usual = topics::usual(parameters.str_list("robots")?);
+    let beforehand = if selection.is_narrow() { asked } else { &usual };
+    let subscriptions: Result<Vec<_>, _> = beforehand.iter().map(|name| subscription(name)).collect();
     let subscriptions = subscriptions.map_err(|(problem, remedy)| parameters.error("topics", problem, remedy))?;
+    let chosen = subscriptions.into_iter().flatten().filter(|subscribe| selection.takes(&subscribe.topic));
+    let subscriptions: Vec<_> = chosen.collect();
     let writer = BagWriter::create(Path::new(output), WriteOptions::default())
         .map_err(|error| parameters.error("output", error.to_string(), "name a new folder on a disk with space"))?;
     Ok(Box::new(Recorder {
         ids: vec![None; subscriptions.len()],
         interface: Interface { subscriptions, ..Interface::default() },
+        selection,
+        images: parameters.bool("all")?,
+        notes: Vec::new(),
         writer: Some(writer),
         next_look: Steady::default(),
     }))
@@ -68,6 +79,11 @@ struct Recorder {
     interface: Interface,
     /// The bag's topic of each subscription, once it was heard.
     ids: Vec<Option<TopicId>>,
+    selection: Selection,
+    /// Whether images are recorded although nobody named them.
+    images: bool,
+    /// What is to be told about topics that were discovered.
+    notes: Vec<(Level, String)>,
     /// Nothing once the bag is finished.
     writer: Option<BagWriter>,
     next_look: Steady,
@@ -79,9 +95,13 @@ impl NodeCore for Recorder {
     }
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        for (level, text) in std::mem::take(&mut self.notes) {
+            sink.log(level, &text);
+        }
         let done = match event {
             Event::Started => {
-                sink.log(Level::Info, &format!("recording {} topics", self.interface.subscriptions.len()));
+                let count = self.interface.subscriptions.len();
+                sink.log(Level::Info, &format!("listening to {count} topics, and to those that are discovered"));
                 self.look(at)
             }
             Event::Message { port, source, cdr } => {
@@ -104,6 +124,22 @@ impl NodeCore for Recorder {
 
     fn next_wakeup(&self) -> Option<Steady> {
         self.writer.is_some().then_some(self.next_look)
+    }
+
+    fn discovered(&mut self, found: Discovered<'_>) -> Option<Subscribe> {
+        let is_image = !self.selection.is_narrow() && !self.images && discovery::is_image(found.type_name);
+        let is_known = self.interface.subscriptions.iter().any(|subscribe| subscribe.topic == found.topic);
+        let is_hidden = found.topic.split('/').any(|part| part.starts_with('_'));
+        if is_known || is_image || is_hidden || self.writer.is_none() || !self.selection.takes(found.topic) {
+            return None;
+        }
+        let (type_info, note) = discovery::type_info(&found);
+        self.notes.push((Level::Debug, format!("{} of type {} is recorded too", found.topic, found.type_name)));
+        self.notes.extend(note.map(|note| (Level::Warn, note)));
+        let subscribe = Subscribe { topic: found.topic.to_owned(), type_info, qos: discovery::qos(&found) };
+        self.interface.subscriptions.push(subscribe.clone());
+        self.ids.push(None);
+        Some(subscribe)
     }
 
     fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {

@@ -43,24 +43,32 @@ pub(super) fn usual(robots: &[String]) -> Vec<String> {
     shared.chain(of_robots).collect()
 }
 
-/// The subscription that `NAME` or `NAME:TYPE` asks for, or what is wrong with it and what would be right.
-pub(super) fn subscription(asked: &str) -> Result<Subscribe, (String, String)> {
-    let (name, named_type) = match asked.split_once(':') {
-        Some((name, named_type)) => (name, Some(named_type)),
-        None => (asked, None),
-    };
+/// The name that `NAME` or `NAME:TYPE` asks for.
+pub(super) fn name(asked: &str) -> &str {
+    asked.split_once(':').map_or(asked, |(name, _)| name)
+}
+
+/// Type and quality of service of a topic of the stack.
+pub(super) fn known(name: &str) -> Option<(&'static str, Qos)> {
+    let shared = SHARED.iter().find(|(shared, ..)| *shared == name);
+    let found = shared.or_else(|| OF_A_ROBOT.iter().find(|(end, ..)| name.ends_with(end)));
+    found.map(|&(_, type_name, qos)| (type_name, qos))
+}
+
+/// The subscription that `NAME` or `NAME:TYPE` asks for, or what is wrong with it and what would be right. Nothing for
+/// a name whose type is not known before somebody writes it.
+pub(super) fn subscription(asked: &str) -> Result<Option<Subscribe>, (String, String)> {
+    let name = name(asked);
     if !name.starts_with('/') || name.len() < 2 {
         return Err((format!("{name:?} is no absolute topic name"), "write it with a leading /".to_owned()));
     }
-    let known = SHARED.iter().find(|(shared, ..)| *shared == name);
-    let known = known.or_else(|| OF_A_ROBOT.iter().find(|(end, ..)| name.ends_with(end)));
-    let qos = known.map_or(Qos::RELIABLE, |(.., qos)| *qos);
-    let Some(type_name) = named_type.or(known.map(|(_, type_name, _)| *type_name)) else {
-        return Err((format!("the type of {name} is not known"), format!("write {name}:package/msg/Type")));
-    };
+    let known = known(name);
+    let qos = known.map_or(Qos::RELIABLE, |(_, qos)| qos);
+    let named_type = asked.split_once(':').map(|(_, named_type)| named_type);
+    let Some(type_name) = named_type.or(known.map(|(type_name, _)| type_name)) else { return Ok(None) };
     let type_info: &'static TypeInfo = trench_msgs::type_named(type_name)
         .ok_or_else(|| (format!("{type_name:?} is no message type of this stack"), known_types()))?;
-    Ok(Subscribe { topic: name.to_owned(), type_info, qos })
+    Ok(Some(Subscribe { topic: name.to_owned(), type_info, qos }))
 }
 
 fn known_types() -> String {
@@ -74,7 +82,9 @@ mod tests {
 
     fn check(asked: &str, expected: Result<(&str, &str), &str>) {
         match (subscription(asked), expected) {
-            (Ok(found), Ok(expected)) => assert_eq!((found.topic.as_str(), found.type_info.name), expected, "{asked}"),
+            (Ok(Some(found)), Ok(expected)) => {
+                assert_eq!((found.topic.as_str(), found.type_info.name), expected, "{asked}");
+            }
             (Err((problem, _)), Err(expected)) => assert!(problem.contains(expected), "{asked}: {problem}"),
             (found, _) => panic!("{asked}: {found:?}"),
         }
@@ -87,17 +97,17 @@ mod tests {
         check("/ground_truth/robot7/odom", Ok(("/ground_truth/robot7/odom", "nav_msgs/msg/Odometry")));
         check("/robot1/cmd_vel:geometry_msgs/msg/Twist", Ok(("/robot1/cmd_vel", "geometry_msgs/msg/Twist")));
         check("/stop:std_msgs/msg/Bool", Ok(("/stop", "std_msgs/msg/Bool")));
-        check("/stop", Err("the type of /stop is not known"));
         check("/stop:std_msgs/msg/Nothing", Err("no message type"));
         check("odom", Err("no absolute topic name"));
         check("/", Err("no absolute topic name"));
+        assert!(matches!(subscription("/stop"), Ok(None)), "its writer will tell");
     }
 
     #[test]
     fn the_usual_topics_are_all_known() {
         let usual = usual(&["robot1".to_owned()]);
         for name in &usual {
-            assert!(subscription(name).is_ok(), "{name}");
+            assert!(matches!(subscription(name), Ok(Some(_))), "{name}");
         }
         assert!(!usual.iter().any(|name| name.ends_with("image_raw")), "images are large");
         assert!(usual.contains(&"/ground_truth/robot1/odom".to_owned()));

@@ -123,7 +123,9 @@ impl BagWriter {
             ("offered_qos_profiles".to_owned(), offered),
             ("topic_type_hash".to_owned(), topic_type.hash.to_owned()),
         ]);
-        let schema = self.mcap.add_schema(topic_type.name, "ros2msg", topic_type.definition.as_bytes());
+        // An encoding says that there is a definition.
+        let encoding = if topic_type.definition.is_empty() { "" } else { "ros2msg" };
+        let schema = self.mcap.add_schema(topic_type.name, encoding, topic_type.definition.as_bytes());
         let channel = schema.and_then(|schema| self.mcap.add_channel(schema, name, "cdr", &metadata));
         self.channels.push(channel.map_err(BagError::mcap(&self.directory))?);
         self.topics.push(CountedTopic::new(name, topic_type, qos));

@@ -4,6 +4,7 @@
 mod common;
 mod damage;
 mod peers;
+mod player;
 mod recorder;
 mod round_trip;
 mod runs;

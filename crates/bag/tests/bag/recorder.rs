@@ -69,6 +69,6 @@ fn wrong_parameters_are_refused() {
     };
     check("", &[], "name the new bag's folder");
     check(&taken, &["/goals"], "exists already");
-    check(&format!("{taken}/new"), &["/unknown"], "the type of /unknown is not known");
+    check(&format!("{taken}/new"), &["/unknown:no/msg/Type"], "no message type of this stack");
     assert!(!folder.path().join("new").exists(), "nothing is left behind");
 }

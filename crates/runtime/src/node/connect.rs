@@ -77,12 +77,14 @@ pub(crate) fn connect(
         Clock::System => None,
         Clock::Simulated(_) => {
             let subscribe = Subscribe { topic: "/clock".to_owned(), type_info: ClockMessage::TYPE, qos: Qos::SENSOR };
-            Some(subscription(&node, index, names, &subscribe, Wake::Clock, to)?)
+            let topic = names.resolve(&subscribe.topic, NameKind::Topic);
+            Some(subscription(&node, index, topic, &subscribe, Wake::Clock, to)?)
         }
     };
     let mut subscriptions = Vec::new();
     for (port, subscribe) in interface.subscriptions.iter().enumerate() {
-        subscriptions.push(subscription(&node, index, names, subscribe, Wake::Messages(port), to)?);
+        let topic = names.resolve(&subscribe.topic, NameKind::Topic);
+        subscriptions.push(subscription(&node, index, topic, subscribe, Wake::Messages(port), to)?);
     }
     let mut publications = Vec::new();
     for advertise in &interface.publications {
@@ -123,7 +125,7 @@ pub(crate) fn connect(
         broken: Vec::new(),
         exit: None,
     };
-    Ok(Node { core, subscriptions, clock, parameters, ports })
+    Ok(Node { full_name: node, core, subscriptions, clock, parameters, ports })
 }
 
 /// Late joiners get the last lines; as many as rclcpp keeps.
@@ -177,15 +179,15 @@ fn shared_writer(
         .ok()
 }
 
-fn subscription(
+/// Opens both ends of a subscription to `topic`, an absolute name.
+pub(super) fn subscription(
     node: &str,
     index: usize,
-    names: &Names<'_>,
+    topic: String,
     subscribe: &Subscribe,
     wake: Wake,
     to: &mut Connections<'_>,
 ) -> Result<Subscription, TransportError> {
-    let topic = names.resolve(&subscribe.topic, NameKind::Topic);
     let network_name = TopicName::message(&topic, subscribe.type_info.name);
     let shared_name = to.host.topic(&topic, subscribe.type_info.name);
     let mut network = to.participant.reader(node, &network_name, subscribe.qos)?;

@@ -132,6 +132,11 @@ impl Node {
         }
     }
 
+    /// Says in the node's name what the process could not do for it.
+    pub(crate) fn warn(&mut self, text: &str) {
+        self.ports.warn(text);
+    }
+
     fn report(&mut self, topic: &str, problems: &[String]) {
         if let Some(first) = problems.first() {
             let count = problems.len();

@@ -1,9 +1,11 @@
 //! Following the ROS graph: matches, foreign types, and shared memory that appears.
 
-use super::{Node, Subscription};
+use super::connect::subscription;
+use super::{Connections, Node, Subscription, Wake};
+use crate::transport::TransportError;
 use crate::transport::dds::GraphChange;
 use crate::transport::shared_memory::Host;
-use trench_core::{Event, Level, Sink, Steady};
+use trench_core::{Discovered, Event, Level, Sink, Steady};
 
 impl Node {
     /// Follows the ROS graph.
@@ -22,7 +24,7 @@ impl Node {
                 servers.for_each(|server| server.readers_changed(*writer, readers));
                 self.ports.publications.iter_mut().for_each(|topic| topic.readers_changed(*writer, readers));
             }
-            GraphChange::Writer { topic, type_name } => self.look_at_writer(topic, type_name),
+            GraphChange::Writer { topic, type_name, .. } => self.look_at_writer(topic, type_name),
             GraphChange::Incompatible { local, remote } => {
                 let reader = self.subscriptions.iter().find(|subscription| subscription.network.guid() == *local);
                 if let Some(topic) = reader.map(|reader| reader.topic().to_owned()) {
@@ -31,6 +33,20 @@ impl Node {
                 }
             }
         }
+    }
+
+    /// Opens the subscription that the core wants to a topic that was discovered, as node number `index` of the
+    /// process. Whether it wanted one.
+    pub(crate) fn discover(
+        &mut self,
+        topic: Discovered<'_>,
+        index: usize,
+        to: &mut Connections<'_>,
+    ) -> Result<bool, TransportError> {
+        let Some(subscribe) = self.core.discovered(topic) else { return Ok(false) };
+        let wake = Wake::Messages(self.subscriptions.len());
+        self.subscriptions.push(subscription(&self.full_name, index, subscribe.topic.clone(), &subscribe, wake, to)?);
+        Ok(true)
     }
 
     pub(super) fn readers(&self) -> impl Iterator<Item = &Subscription> {

@@ -24,6 +24,7 @@ use trench_core::NodeCore;
 
 /// A running node.
 pub(crate) struct Node {
+    full_name: String,
     core: Box<dyn NodeCore>,
     subscriptions: Vec<Subscription>,
     clock: Option<Subscription>,

@@ -1,9 +1,11 @@
 //! Byte streams: serial lines and pseudo-terminals, read and written without ever blocking.
 
+mod keyboard;
 mod line;
 mod pseudo_terminal;
 mod serial;
 
+use keyboard::Keyboard;
 use line::Line;
 use pseudo_terminal::PseudoTerminal;
 use rustdds::mio1::{Registry, Token};
@@ -26,6 +28,7 @@ pub(crate) struct Stream {
 enum Kind {
     Serial(Serial),
     PseudoTerminal(PseudoTerminal),
+    Keyboard(Keyboard),
 }
 
 /// What a turn of the loop brought.
@@ -45,6 +48,7 @@ impl Stream {
         let kind = match stream {
             ByteStream::Serial { path, baud } => Kind::Serial(Serial::new(path, *baud)),
             ByteStream::PseudoTerminal { link } => Kind::PseudoTerminal(PseudoTerminal::new(link)),
+            ByteStream::Keyboard => Kind::Keyboard(Keyboard::default()),
         };
         Self { kind, line: None, token, retry: Some(Steady(0)), last_problem: None }
     }
@@ -62,6 +66,7 @@ impl Stream {
         let opened = match &mut self.kind {
             Kind::Serial(serial) => serial.open(),
             Kind::PseudoTerminal(terminal) => terminal.open(),
+            Kind::Keyboard(keyboard) => keyboard.open(),
         };
         match opened.and_then(|descriptor| Line::new(descriptor, registry, self.token)) {
             Ok(line) => {
@@ -113,6 +118,7 @@ impl Stream {
         match &self.kind {
             Kind::Serial(serial) => serial.path(),
             Kind::PseudoTerminal(terminal) => terminal.link(),
+            Kind::Keyboard(_) => keyboard::TERMINAL,
         }
     }
 }

@@ -5,6 +5,7 @@ use super::pace::Pace;
 use super::{FrameSource, SourceError, Taken};
 use crate::frame::{Encoding, Frame};
 use std::path::Path;
+use std::sync::Arc;
 use trench_bag::{BagMessage, BagReader, Messages, Topic};
 use trench_core::{RosTime, Steady, Times};
 use trench_msgs::Message;
@@ -15,10 +16,10 @@ const OLDEST: f64 = 1.0;
 
 /// One topic of a bag.
 pub struct BagSource {
-    bag: &'static BagReader,
+    bag: Arc<BagReader>,
     topic: usize,
     compressed: bool,
-    messages: Messages<'static>,
+    messages: Messages<Arc<BagReader>>,
     repeat: bool,
     most_bytes: usize,
     pace: Pace,
@@ -44,13 +45,12 @@ impl BagSource {
             return Err(format!("has no images on {topic}; it has images on: {}", names.join(" ")));
         };
         let compressed = bag.topics()[index].type_name == CompressedImage::TYPE.name;
-        // A process plays one bag for as long as it lives, and its messages borrow from the bag.
-        let bag: &'static BagReader = Box::leak(Box::new(bag));
+        let bag = Arc::new(bag);
         let mut source = Self {
-            bag,
             topic: index,
             compressed,
-            messages: bag.messages(),
+            messages: bag.messages_from(0),
+            bag,
             repeat,
             most_bytes: 0,
             pace: Pace::default(),
@@ -93,7 +93,7 @@ impl BagSource {
             let [last, before] = self.last;
             let round = self.offset(last.saturating_add(last.saturating_sub(before)));
             self.pace.start(self.pace.due(round));
-            self.messages = self.bag.messages();
+            self.messages = self.bag.messages_from(0);
             self.next = self.following();
             if let Some(Ok(first)) = &self.next {
                 self.last = [first.log_time; 2];

@@ -46,17 +46,19 @@ impl<'a> Channels<'a> {
                 definition,
                 offered_qos: channel.metadata.remove("offered_qos_profiles").unwrap_or_default(),
                 message_count: 0,
+                largest: 0,
             });
             self.topics.len() - 1
         });
         self.channels.insert(channel.id, index);
     }
 
-    /// Counts a message. Whether its channel is known.
-    pub(super) fn count(&mut self, channel: u16) -> bool {
+    /// Counts a message of `length` bytes. Whether its channel is known.
+    pub(super) fn count(&mut self, channel: u16, length: usize) -> bool {
         match self.channels.get(&channel).and_then(|&index| self.topics.get_mut(index)) {
             Some(topic) => {
                 topic.message_count += 1;
+                topic.largest = topic.largest.max(length);
                 self.counted += 1;
                 true
             }

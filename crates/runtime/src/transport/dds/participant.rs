@@ -34,6 +34,13 @@ impl TopicName {
         Self { topic: format!("rr{service}Reply"), type_name: dds_type(type_name, "_Response") }
     }
 
+    /// Topic and type as ROS names them; nothing for what is no topic of ROS (services, DDS's own).
+    pub(crate) fn ros_message(topic: &str, type_name: &str) -> Option<(String, String)> {
+        let topic = topic.strip_prefix("rt").filter(|topic| topic.starts_with('/'))?;
+        let (package, name) = type_name.split_once("::msg::dds_::")?;
+        Some((topic.to_owned(), format!("{package}/msg/{}", name.strip_suffix('_')?)))
+    }
+
     /// The topic, `rt/team_state`.
     pub(crate) fn topic(&self) -> &str {
         &self.topic
@@ -159,6 +166,11 @@ mod tests {
             assert_eq!((name.topic.as_str(), name.type_name.as_str()), (topic, type_name));
         };
         check(TopicName::message("/tf", "tf2_msgs/msg/TFMessage"), "rt/tf", "tf2_msgs::msg::dds_::TFMessage_");
+        let ros = |topic: &str, type_name: &str| TopicName::ros_message(topic, type_name);
+        let expected = Some(("/tf".to_owned(), "tf2_msgs/msg/TFMessage".to_owned()));
+        assert_eq!(ros("rt/tf", "tf2_msgs::msg::dds_::TFMessage_"), expected);
+        assert_eq!(ros("rq/a/armRequest", "std_srvs::srv::dds_::Trigger_Request_"), None);
+        assert_eq!(ros("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"), None);
         let trigger = "std_srvs/srv/Trigger";
         check(TopicName::request("/a/arm", trigger), "rq/a/armRequest", "std_srvs::srv::dds_::Trigger_Request_");
         check(TopicName::response("/a/arm", trigger), "rr/a/armReply", "std_srvs::srv::dds_::Trigger_Response_");

@@ -27,6 +27,24 @@ fn limits(max_samples: i32) -> policy::ResourceLimits {
     policy::ResourceLimits { max_samples, max_instances: 1, max_samples_per_instance: max_samples }
 }
 
+/// What a writer of another process offers. Its depth is that of the past which late readers get; not all tell it.
+pub(crate) fn offered(policies: &QosPolicies) -> Qos {
+    Qos {
+        reliability: match policies.reliability() {
+            Some(policy::Reliability::Reliable { .. }) => Reliability::Reliable,
+            Some(policy::Reliability::BestEffort) | None => Reliability::BestEffort,
+        },
+        durability: match policies.durability() {
+            Some(policy::Durability::Volatile) | None => Durability::Volatile,
+            Some(_) => Durability::TransientLocal,
+        },
+        depth: match policies.history() {
+            Some(policy::History::KeepLast { depth }) => usize::try_from(depth).unwrap_or(1).max(1),
+            Some(policy::History::KeepAll) | None => 1,
+        },
+    }
+}
+
 /// What a reader asks for. The history is the cache between RustDDS's thread and the event loop, not a ROS queue, hence
 /// deeper than `qos.depth`.
 pub(crate) fn reader(qos: Qos) -> QosPolicies {

@@ -4,6 +4,7 @@ use rustdds::mio1::{Interest, Registry, Token, event};
 use rustdds::{DomainParticipantStatusEvent as Status, DomainParticipantStatusListener, GUID, StatusEvented};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use trench_core::Qos;
 
 /// A change that nodes or their operator want to know of.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,8 +13,8 @@ pub(crate) enum GraphChange {
     Matched { reader: GUID, writers: usize },
     /// The readers matched to a writer changed.
     Readers { writer: GUID, readers: BTreeSet<GUID> },
-    /// Another process writes a topic that some reader here may read.
-    Writer { topic: String, type_name: String },
+    /// Another process writes a topic that some reader here may read. The type's hash is empty where it is not told.
+    Writer { topic: String, type_name: String, type_hash: String, qos: Qos },
     /// A reader and a writer of one topic cannot talk.
     Incompatible { local: GUID, remote: GUID },
 }
@@ -58,7 +59,12 @@ impl StatusReader {
             }
             Status::ParticipantLost { id, .. } => self.forget(|endpoint| endpoint.prefix == id, changes),
             Status::WriterDetected { writer } => {
-                changes.push(GraphChange::Writer { topic: writer.topic_name, type_name: writer.type_name });
+                changes.push(GraphChange::Writer {
+                    topic: writer.topic_name,
+                    type_name: writer.type_name,
+                    type_hash: type_hash(&writer.user_data),
+                    qos: super::qos::offered(&writer.qos),
+                });
             }
             Status::RemoteWriterQosIncompatible { local_reader, remote_writer, .. } => {
                 changes.push(GraphChange::Incompatible { local: local_reader, remote: remote_writer });
@@ -84,6 +90,13 @@ impl StatusReader {
     }
 }
 
+/// What ROS 2 says of a topic's type beside its name: `typehash=RIHS01_...;` among the user data.
+fn type_hash(user_data: &[u8]) -> String {
+    let text = String::from_utf8_lossy(user_data);
+    let mut entries = text.split(';');
+    entries.find_map(|entry| entry.trim().strip_prefix("typehash=")).unwrap_or_default().to_owned()
+}
+
 fn remove(endpoints: &mut BTreeSet<GUID>, lost: &impl Fn(&GUID) -> bool) -> bool {
     let before = endpoints.len();
     endpoints.retain(|endpoint| !lost(endpoint));
@@ -101,5 +114,19 @@ impl event::Source for StatusReader {
 
     fn deregister(&mut self, registry: &Registry) -> io::Result<()> {
         self.listener.deregister(registry)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::type_hash;
+
+    #[test]
+    fn type_hashes_are_found_among_user_data() {
+        let check = |user_data: &[u8], expected: &str| assert_eq!(type_hash(user_data), expected);
+        check(b"typehash=RIHS01_ab;", "RIHS01_ab");
+        check(b"enclave=/; typehash=RIHS01_cd;", "RIHS01_cd");
+        check(b"enclave=/;", "");
+        check(b"\xff\xfe", "");
     }
 }
