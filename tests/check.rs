@@ -59,8 +59,8 @@ fn what_cannot_be_read_is_named_with_its_line() {
     );
     refused(
         &["tests/check/none.yaml"],
-        "trench check: tests/check/none.yaml: FILE = tests/check/none.yaml: No such file or directory (os error 2); name a \
-         file that can be read\n",
+        "trench check: tests/check/none.yaml: FILE = tests/check/none.yaml: cannot be read: No such file or directory (os \
+         error 2); name a file that exists and is text\n",
     );
     refused(
         &["launch/square.launch.yaml", "profil:=thesis"],
