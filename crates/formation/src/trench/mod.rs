@@ -94,6 +94,10 @@ impl<T: Trench + ?Sized> Trench for &T {
         (**self).kinks()
     }
 
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        (**self).slope_bounds(low, high)
+    }
+
     fn gradient(&self, x: f64) -> Interval {
         (**self).gradient(x)
     }

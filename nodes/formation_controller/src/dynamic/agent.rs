@@ -114,7 +114,7 @@ fn steer(
     let attracting = Attracting { foot: drawing.foot, draws: drawing.draws };
     let pushes = || pushes(settings, around, robot.position, time);
     let leader = around.ahead.last().filter(|_| settings.law.is_chained() && around.rank > 1);
-    match settings.law {
+    match &settings.law {
         DynamicLaw::Goal(law) => pushed(law.steer(robot, drawing.foot), pushes()),
         DynamicLaw::GoalDamped(law) => pushed(law.steer(robot, drawing.foot), pushes()),
         DynamicLaw::GoalAtRest(law) => pushed(law.steer(robot, GoalMotion::at_rest(drawing.foot.position)), pushes()),
@@ -151,7 +151,7 @@ fn steer(
             }
             _ => {
                 let damping = ConstantDamping { coefficient: law.damping };
-                let goal = GoalTracking { trench: law.trench, damping };
+                let goal = GoalTracking { trench: &law.trench, damping };
                 pushed(goal.steer(robot, drawing.foot), pushes())
             }
         },

@@ -1,11 +1,10 @@
 //! Which law steers, by its equation.
 
-use super::trench::AnyTrench;
 use trench_formation::laws::{GoalTracking, NearestAttraction, ZonedAttraction};
-use trench_formation::trench::{ConstantDamping, CriticallyDamped, HyperbolicDamping};
+use trench_formation::trench::{AnyTrench, ConstantDamping, CriticallyDamped, HyperbolicDamping};
 
 /// A law for double integrators, as chosen by the parameter `law`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum DynamicLaw {
     /// (5.1): to the goal point, whose velocity and acceleration are fed forward.
     Goal(GoalTracking<AnyTrench, ConstantDamping>),

@@ -1,7 +1,7 @@
 //! Parameters of the dynamic laws.
 
 use super::DynamicLaw;
-use super::trench::{AnyTrench, SHAPES};
+use super::trench::{SHAPES, named};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_formation::laws::{Capability, GoalTracking, NearestAttraction, ZonedAttraction};
 use trench_formation::seek::{LeaderRule, SeekSettings};
@@ -114,23 +114,29 @@ fn law(parameters: &Parameters) -> Result<Option<DynamicLaw>, ConfigError> {
     let double = |name: &str| parameters.f64(name);
     let (alpha, a, damping) = (double("trench.alpha")?, double("trench.a")?, double("damping")?);
     let leader_damping = double("leader_damping")?;
-    let trench = AnyTrench::named(parameters.str("trench.shape")?, alpha, a)
+    let trench = named(parameters.str("trench.shape")?, alpha, a)
         .ok_or_else(|| parameters.error("trench.shape", "is no trench", SHAPES))?;
-    let tracking = GoalTracking { trench, damping: ConstantDamping { coefficient: damping } };
-    let nearest = NearestAttraction { trench, damping, leader_damping };
+    let tracking = || GoalTracking { trench: trench.clone(), damping: ConstantDamping { coefficient: damping } };
+    let nearest = || NearestAttraction { trench: trench.clone(), damping, leader_damping };
     let law = match parameters.str("law")? {
-        "goal" => DynamicLaw::Goal(tracking),
+        "goal" => DynamicLaw::Goal(tracking()),
         "goal_damped" => {
             let damping = HyperbolicDamping { alpha: 2.0 * damping, a };
             DynamicLaw::GoalDamped(GoalTracking { trench: CriticallyDamped(damping), damping })
         }
-        "goal_at_rest" => DynamicLaw::GoalAtRest(tracking),
+        "goal_at_rest" => DynamicLaw::GoalAtRest(tracking()),
         "zoned" => {
             let zoning = zoning(parameters)?;
-            DynamicLaw::Zoned(ZonedAttraction { trench, zoning, damping, leader_damping, compensates: true })
+            DynamicLaw::Zoned(ZonedAttraction {
+                trench: trench.clone(),
+                zoning,
+                damping,
+                leader_damping,
+                compensates: true,
+            })
         }
-        "nearest" => DynamicLaw::Nearest(nearest),
-        "chain" => DynamicLaw::Chain(nearest),
+        "nearest" => DynamicLaw::Nearest(nearest()),
+        "chain" => DynamicLaw::Chain(nearest()),
         _ => return Ok(None),
     };
     check_admissibility(&trench, TRENCH_RANGE).map_err(|error| {
