@@ -39,8 +39,8 @@ fn parameters() -> Vec<ParameterDescriptor> {
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let interface = Interface {
         subscriptions: vec![
-            Subscribe { topic: "/overhead/image_raw".to_owned(), type_info: Image::TYPE, qos: Qos::SENSOR },
-            Subscribe { topic: "/run_state".to_owned(), type_info: RunState::TYPE, qos: Qos::LATCHED },
+            Subscribe::to::<Image>("/overhead/image_raw", Qos::SENSOR),
+            Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         ],
         byte_streams: vec![
             ByteStream::Serial { path: parameters.str("line")?.to_owned(), baud: BAUD },

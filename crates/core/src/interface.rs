@@ -67,12 +67,26 @@ pub struct Subscribe {
     pub type_info: &'static TypeInfo,
     /// What this end asks for.
     pub qos: Qos,
+    /// Whether a message wakes the node. Without, it is handed over before the next event that does: for what a core
+    /// only uses then, so that twenty robots that tell each other where they are do not wake each other for it.
+    pub wakes: bool,
 }
 
 impl Subscribe {
     /// A topic of messages `M`.
     pub fn to<M: Message>(topic: impl Into<String>, qos: Qos) -> Self {
-        Self { topic: topic.into(), type_info: M::TYPE, qos }
+        Self::of_type(topic, M::TYPE, qos)
+    }
+
+    /// A topic of messages of this type.
+    pub fn of_type(topic: impl Into<String>, type_info: &'static TypeInfo, qos: Qos) -> Self {
+        Self { topic: topic.into(), type_info, qos, wakes: true }
+    }
+
+    /// The same, read with the next event that wakes the node. That must come soon: by a tick, or a timer of the node.
+    #[must_use]
+    pub fn without_waking(self) -> Self {
+        Self { wakes: false, ..self }
     }
 }
 

@@ -31,7 +31,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     if source {
         interface.publications = vec![Advertise { topic, type_info: UInt64::TYPE, qos: Qos::RELIABLE, local }];
     } else {
-        interface.subscriptions = vec![Subscribe { topic, type_info: UInt64::TYPE, qos: Qos::RELIABLE }];
+        interface.subscriptions = vec![Subscribe::to::<UInt64>(topic, Qos::RELIABLE)];
     }
     let period = 1.0 / parameters.f64("rate")?;
     let next = source.then_some(Steady(0));

@@ -19,18 +19,21 @@ fn parameters() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::integer("count", 0, "messages to read before the node ends; 0: for ever")
             .range(0.0, 1.0e9),
         ParameterDescriptor::bool("latched", false, "ask for what was said before").read_only(),
+        ParameterDescriptor::bool("wakes", true, "false: messages are read at the timer's next wake-up").read_only(),
+        ParameterDescriptor::double("period", 0.0, "s, between two wake-ups by a timer; 0: none")
+            .range(0.0, 10.0)
+            .read_only(),
     ]
 }
 
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
-    let subscribe = Subscribe {
-        topic: "/chatter".to_owned(),
-        type_info: Text::TYPE,
-        qos: if parameters.bool("latched")? { Qos::LATCHED } else { Qos::RELIABLE },
-    };
+    let qos = if parameters.bool("latched")? { Qos::LATCHED } else { Qos::RELIABLE };
+    let subscribe = Subscribe { wakes: parameters.bool("wakes")?, ..Subscribe::to::<Text>("/chatter", qos) };
     Ok(Box::new(Listener {
         interface: Interface { subscriptions: vec![subscribe], ..Interface::default() },
         limit: parameters.usize("count")?,
+        period: Some(parameters.f64("period")?).filter(|period| *period > 0.0),
+        next: None,
         heard: 0,
         bad: 0,
     }))
@@ -39,6 +42,8 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
 struct Listener {
     interface: Interface,
     limit: usize,
+    period: Option<f64>,
+    next: Option<Steady>,
     heard: usize,
     bad: usize,
 }
@@ -48,8 +53,12 @@ impl NodeCore for Listener {
         &self.interface
     }
 
-    fn handle(&mut self, _: Times, event: Event<'_>, sink: &mut dyn Sink) {
+    fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        if matches!(event, Event::Started | Event::Wakeup) {
+            self.next = self.period.map(|period| at.steady.plus_seconds(period));
+        }
         match event {
+            Event::Wakeup => println!("wakeup {}", self.heard),
             Event::Message { source, cdr, .. } => match Text::decode(cdr) {
                 Ok(text) => {
                     self.heard += 1;
@@ -70,7 +79,7 @@ impl NodeCore for Listener {
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        None
+        self.next
     }
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {

@@ -93,16 +93,18 @@ fn admit_gains(parameters: &Parameters) -> Result<Option<String>, ConfigError> {
 }
 
 fn interface(settings: &Settings, others: &[String]) -> Interface {
+    // Goals, obstacles and what the others say are used at the next tick, and wake nobody.
     let mut subscriptions = vec![
         Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
-        Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
+        Subscribe::to::<Goals>("/goals", Qos::RELIABLE).without_waking(),
         Subscribe::to::<Assignment>("/assignment", Qos::LATCHED),
         Subscribe::to::<Formation>("/formation", Qos::LATCHED),
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
-        Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE),
+        Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE).without_waking(),
         Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
     ];
-    let leader_state = |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE);
+    let leader_state =
+        |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE).without_waking();
     subscriptions.extend(others.iter().map(leader_state));
     let robot = &settings.robot;
     let command = format!("/{robot}/cmd_vel");

@@ -4,13 +4,13 @@ use crate::checkpoint::{self, Checkpoint};
 use crate::held::Held;
 use crate::organise::Seated;
 use crate::settings::{Settings, descriptors, target_limits};
+use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
     Serve, Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
-use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::SetFormation;
@@ -18,6 +18,7 @@ use trench_msgs::msg::{Assignment, Formation, Goals, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_srvs::Trigger;
 use trench_msgs::visualization_msgs::MarkerArray;
+use trench_msgs::{Encode, Message};
 
 const TEAM_STATE: usize = 0;
 const TARGET: usize = 1;
@@ -29,9 +30,6 @@ pub(crate) const GOALS: usize = 2;
 pub(crate) const RUN_STATE: usize = 3;
 const DIAGNOSTICS: usize = 4;
 pub(crate) const MARKERS: usize = 5;
-
-/// Room for a message about some hundred robots in shared memory.
-const TEAM: Local = Local::SharedMemory { max_len: 65_536 };
 
 /// Who goes where, and when.
 pub struct LeaderAssignment {
@@ -70,7 +68,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
     let checkpoint = context.checkpoint.as_deref().and_then(checkpoint::read);
     let held = Held::new(plan, settings.robots.clone());
     Ok(Box::new(LeaderAssignment {
-        interface: interface(),
+        interface: interface(&settings.robots),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
         configured: held.message.hash,
         held,
@@ -87,7 +85,8 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
     }))
 }
 
-fn interface() -> Interface {
+fn interface(robots: &[String]) -> Interface {
+    let max_len = longest_goals(robots).encoded_len();
     let mut services: Vec<Serve> =
         ["arm", "start", "stop", "reset"].map(|name| Serve::of::<Trigger>(format!("~/{name}"))).into();
     services.push(Serve::of::<SetFormation>("~/set_formation"));
@@ -100,7 +99,7 @@ fn interface() -> Interface {
         publications: vec![
             Advertise::of::<Formation>("/formation", Qos::LATCHED, Local::NetworkOnly),
             Advertise::of::<Assignment>("/assignment", Qos::LATCHED, Local::NetworkOnly),
-            Advertise::of::<Goals>("/goals", Qos::RELIABLE, TEAM),
+            Advertise::of::<Goals>("/goals", Qos::RELIABLE, Local::SharedMemory { max_len }),
             Advertise::of::<RunState>("/run_state", Qos::LATCHED, Local::NetworkOnly),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
             Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),

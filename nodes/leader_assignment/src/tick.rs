@@ -15,6 +15,15 @@ use trench_plan::Frame;
 /// The shortest time between two pictures for viewers, s; a tick that comes a little early counts as due.
 const PICTURES: f64 = 0.195;
 
+const MAP: &str = "map";
+
+/// Goals of all robots that may ever take part: no message is longer.
+pub(crate) fn longest_goals(robots: &[String]) -> Goals {
+    let goal = |robot: &String| Goal { robot: robot.clone(), ..Goal::default() };
+    let header = Header { frame_id: MAP.to_owned(), ..Header::default() };
+    Goals { header, goals: robots.iter().map(goal).collect(), ..Goals::default() }
+}
+
 impl LeaderAssignment {
     pub(crate) fn tick(&mut self, at: Times, team: TeamState, sink: &mut dyn Sink) {
         let stamp = RosTime::from(&team.header.stamp);
@@ -91,7 +100,7 @@ impl LeaderAssignment {
         };
         let mut goals: Vec<Goal> = self.seats.iter().filter_map(goal).collect();
         goals.sort_by(|a, b| a.robot.cmp(&b.robot));
-        let header = Header { stamp: stamp.into(), frame_id: "map".to_owned() };
+        let header = Header { stamp: stamp.into(), frame_id: MAP.to_owned() };
         Some(Goals { header, epoch: assignment.epoch, frame: carrier.message(), goals })
     }
 

@@ -91,13 +91,16 @@ fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) ->
 
 fn interface(settings: &Settings) -> Interface {
     let assignment_node = &settings.assignment_node;
+    // It looks ten times a second and need not wake for every frame.
     let mut subscriptions = vec![
-        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
-        Subscribe::to::<Goals>("/goals", Qos::RELIABLE),
+        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE).without_waking(),
+        Subscribe::to::<Goals>("/goals", Qos::RELIABLE).without_waking(),
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
     ];
     if settings.by_segment {
-        let state = |robot: &String| Subscribe::to::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE);
+        let state = |robot: &String| {
+            Subscribe::to::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE).without_waking()
+        };
         subscriptions.extend(settings.robots.iter().map(state));
     }
     let target = settings.route.iter().map(|_| Advertise::of::<Odometry>("/target", Qos::RELIABLE, SMALL));

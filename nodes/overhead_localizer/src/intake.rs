@@ -5,11 +5,11 @@ use crate::track::MapDisc;
 use crate::vision::{Colour, Detector, Disc, Expectation, Frame, decode};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Qos, RosTime, Subscribe};
+use trench_msgs::Message;
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::msg::{Disc as DiscMessage, DiscArray};
 use trench_msgs::sensor_msgs::{CompressedImage, Image, ImageView};
 use trench_msgs::std_msgs::HeaderView;
-use trench_msgs::{Message, TypeInfo};
 use trench_optics::{Camera, Overhead, Pixel};
 
 /// More discs than any detector finds pads for: such a message is broken.
@@ -51,11 +51,7 @@ impl Intake {
 
     /// What it reads.
     pub(crate) fn subscription(input: Input, view: &Overhead) -> Subscribe {
-        let read = |topic: &str, type_info: &'static TypeInfo| Subscribe {
-            topic: view.topic(topic),
-            type_info,
-            qos: Qos::SENSOR,
-        };
+        let read = |topic: &str, type_info| Subscribe::of_type(view.topic(topic), type_info, Qos::SENSOR);
         match input {
             Input::Image => read("image_raw", Image::TYPE),
             Input::Compressed => read("image_raw/compressed", CompressedImage::TYPE),

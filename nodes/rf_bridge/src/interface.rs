@@ -79,17 +79,16 @@ fn restored(checkpoint: Option<&[u8]>) -> (u64, bool) {
 }
 
 fn interface(settings: &Settings) -> Interface {
-    let subscribe = |topic: String, type_info, qos| Subscribe { topic, type_info, qos };
     let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
     let mut subscriptions = vec![
-        subscribe("/run_state".to_owned(), RunState::TYPE, Qos::LATCHED),
-        subscribe("/emergency_stop".to_owned(), Bool::TYPE, Qos::RELIABLE),
+        Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
+        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
     ];
     let advertise =
         |topic: String, type_info| Advertise { topic, type_info, qos: Qos::RELIABLE, local: Local::NetworkOnly };
     let mut publications = vec![advertise("/diagnostics".to_owned(), DiagnosticArray::TYPE)];
     for (name, _) in &settings.robots {
-        subscriptions.push(subscribe(format!("/{name}/cmd_vel"), command, Qos::RELIABLE));
+        subscriptions.push(Subscribe::of_type(format!("/{name}/cmd_vel"), command, Qos::RELIABLE));
         publications.push(advertise(format!("/{name}/battery_state"), BatteryState::TYPE));
         publications.push(advertise(format!("/{name}/wheel_odom"), Odometry::TYPE));
         publications.push(advertise(format!("/{name}/link"), LinkStatus::TYPE));

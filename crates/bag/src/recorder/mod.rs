@@ -136,7 +136,7 @@ impl NodeCore for Recorder {
         let (type_info, note) = discovery::type_info(&found);
         self.notes.push((Level::Debug, format!("{} of type {} is recorded too", found.topic, found.type_name)));
         self.notes.extend(note.map(|note| (Level::Warn, note)));
-        let subscribe = Subscribe { topic: found.topic.to_owned(), type_info, qos: discovery::qos(&found) };
+        let subscribe = Subscribe::of_type(found.topic, type_info, discovery::qos(&found));
         self.interface.subscriptions.push(subscribe.clone());
         self.ids.push(None);
         Some(subscribe)

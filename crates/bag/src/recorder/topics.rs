@@ -68,7 +68,7 @@ pub(super) fn subscription(asked: &str) -> Result<Option<Subscribe>, (String, St
     let Some(type_name) = named_type.or(known.map(|(type_name, _)| type_name)) else { return Ok(None) };
     let type_info: &'static TypeInfo = trench_msgs::type_named(type_name)
         .ok_or_else(|| (format!("{type_name:?} is no message type of this stack"), known_types()))?;
-    Ok(Some(Subscribe { topic: name.to_owned(), type_info, qos }))
+    Ok(Some(Subscribe::of_type(name, type_info, qos)))
 }
 
 fn known_types() -> String {

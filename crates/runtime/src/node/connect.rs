@@ -76,7 +76,7 @@ pub(crate) fn connect(
     let clock = match equipment.clock {
         Clock::System => None,
         Clock::Simulated(_) => {
-            let subscribe = Subscribe { topic: "/clock".to_owned(), type_info: ClockMessage::TYPE, qos: Qos::SENSOR };
+            let subscribe = Subscribe::to::<ClockMessage>("/clock", Qos::SENSOR);
             let topic = names.resolve(&subscribe.topic, NameKind::Topic);
             Some(subscription(&node, index, topic, &subscribe, Wake::Clock, to)?)
         }
@@ -191,7 +191,10 @@ pub(super) fn subscription(
     let network_name = TopicName::message(&topic, subscribe.type_info.name);
     let shared_name = to.host.topic(&topic, subscribe.type_info.name);
     let mut network = to.participant.reader(node, &network_name, subscribe.qos)?;
-    to.register(index, wake, &mut network)?;
-    let local_token = to.token(index, wake);
+    let mut local_token = None;
+    if subscribe.wakes {
+        to.register(index, wake, &mut network)?;
+        local_token = Some(to.token(index, wake));
+    }
     Ok(Subscription::new(Reading { topic, network_name, shared_name, qos: subscribe.qos }, network, local_token))
 }

@@ -26,8 +26,9 @@ impl Node {
         self.handle(Event::Shutdown);
     }
 
-    /// Brings what woke the loop.
+    /// Brings what woke the loop, and before it what has come without waking.
     pub(crate) fn wake(&mut self, wake: Wake) {
+        self.take_waiting();
         match wake {
             Wake::Clock => self.take_clock(),
             Wake::Messages(port) => self.take_messages(port),
@@ -41,6 +42,7 @@ impl Node {
     /// What time brings: a wake-up that is due, calls that expired, streams to be opened.
     pub(crate) fn tick(&mut self, now: Steady, host: &Host) {
         if self.core.next_wakeup().is_some_and(|at| at <= now) {
+            self.take_waiting();
             self.handle(Event::Wakeup);
         }
         for client in 0..self.ports.callers.len() {
@@ -91,6 +93,15 @@ impl Node {
         self.report("/clock", &problems);
     }
 
+    /// Takes the messages of topics that do not wake the node.
+    fn take_waiting(&mut self) {
+        for port in 0..self.subscriptions.len() {
+            if !self.subscriptions[port].wakes() {
+                self.take_messages(port);
+            }
+        }
+    }
+
     pub(super) fn take_messages(&mut self, port: usize) {
         let (core, ports) = (&mut self.core, &mut self.ports);
         let Some(subscription) = self.subscriptions.get_mut(port) else { return };
@@ -100,12 +111,14 @@ impl Node {
             |source, cdr| core.handle(ports.clock.now(), Event::Message { port, source, cdr }, ports),
             |problem| problems.push(problem),
         );
-        let topic = subscription.topic().to_owned();
         let lost = subscription.take_lost();
-        if lost > 0 {
-            self.ports.warn(&format!("{topic}: {lost} message(s) lost: they came faster than this node reads"));
+        if lost > 0 || !problems.is_empty() {
+            let topic = subscription.topic().to_owned();
+            if lost > 0 {
+                self.ports.warn(&format!("{topic}: {lost} message(s) lost: they came faster than this node reads"));
+            }
+            self.report(&topic, &problems);
         }
-        self.report(&topic, &problems);
         self.close_broken_streams();
     }
 

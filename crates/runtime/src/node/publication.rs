@@ -18,6 +18,8 @@ pub(crate) struct Publication {
     local: Option<Local>,
     /// False where only readers of this host get the messages.
     to_network: bool,
+    /// Whether the network has found a reader.
+    is_read: bool,
     /// The last messages of a life go all ways there are.
     last_words: bool,
     sent: u64,
@@ -50,7 +52,17 @@ pub(crate) enum PublishProblem {
 impl Publication {
     /// To the network alone, unless [`Publication::share`] follows.
     pub(crate) fn new(topic: String, qos: Qos, network: NetworkWriter) -> Self {
-        Self { topic, qos, network, local: None, to_network: true, last_words: false, sent: 0, refused: 0 }
+        Self {
+            topic,
+            qos,
+            network,
+            local: None,
+            to_network: true,
+            is_read: false,
+            last_words: false,
+            sent: 0,
+            refused: 0,
+        }
     }
 
     /// Serves readers of this host through shared memory, and others only if `to_network`.
@@ -65,7 +77,11 @@ impl Publication {
 
     /// Follows who reads the topic on the network.
     pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
-        if let Some(local) = self.local.as_mut().filter(|_| writer == self.network.guid()) {
+        if writer != self.network.guid() {
+            return;
+        }
+        self.is_read = !readers.is_empty();
+        if let Some(local) = &mut self.local {
             local.audience.matched(readers.iter().map(|reader| reader.to_bytes()).collect());
             // A reader that has just come did not ask for the past.
             local.held.clear();
@@ -84,6 +100,9 @@ impl Publication {
         max_len: usize,
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
     ) -> Result<(), PublishProblem> {
+        if self.is_unheard() {
+            return Ok(());
+        }
         if self.to_network && !self.network.has_room() {
             self.refused += 1;
             return Err(PublishProblem::Congested);
@@ -115,6 +134,12 @@ impl Publication {
             }
         }
         problem.map_or(Ok(()), |problem| Err(PublishProblem::SharedMemory(problem)))
+    }
+
+    /// Whether nobody would ever hear a message: readers that come later do not ask for the past. Writing it all the
+    /// same would wake RustDDS's thread, beside the control loop.
+    fn is_unheard(&self) -> bool {
+        self.local.is_none() && !self.is_read && self.qos.durability == Durability::Volatile
     }
 
     /// Whether shared memory reaches all readers, so that the network may rest.

@@ -23,7 +23,8 @@ pub(crate) struct Subscription {
     qos: Qos,
     pub(crate) network: NetworkReader,
     local: Option<SharedReader>,
-    local_token: Token,
+    /// What shared memory wakes the loop by; none where messages wait for the next event.
+    local_token: Option<Token>,
     retry: Option<(Steady, u32)>,
     delivered: Delivered,
     /// A message of shared memory that waits, until some time, for the network to bring those before it.
@@ -44,7 +45,7 @@ pub(crate) struct Reading {
 }
 
 impl Subscription {
-    pub(crate) fn new(reading: Reading, network: NetworkReader, local_token: Token) -> Self {
+    pub(crate) fn new(reading: Reading, network: NetworkReader, local_token: Option<Token>) -> Self {
         let Reading { topic, network_name, shared_name, qos } = reading;
         let retry = Some((Steady(0), 1));
         let delivered = Delivered::default();
@@ -61,6 +62,11 @@ impl Subscription {
             pending: None,
             early: Early::default(),
         }
+    }
+
+    /// Whether a message wakes the loop.
+    pub(crate) fn wakes(&self) -> bool {
+        self.local_token.is_some()
     }
 
     /// The absolute name.
@@ -151,6 +157,7 @@ impl Subscription {
     }
 
     fn take_network(&mut self, sample: &NetworkSample, deliver: &mut impl FnMut(Source, &[u8])) {
+        self.delivered.heard_over_network(sample.source);
         if self.delivered.accept(sample.source) {
             deliver(sample.source, &sample.cdr);
         }
@@ -180,10 +187,13 @@ impl Subscription {
                 continue;
             }
             let reliable = self.qos.reliability == Reliability::Reliable;
-            if reliable && self.delivered.leaves_gap(sample.source()) && now < until {
-                // A reader that has just found shared memory is ahead of the network's last messages.
-                self.pending = Some((sample, until));
-                return;
+            if reliable && self.delivered.may_be_filled(sample.source()) {
+                if now < until {
+                    // A reader that has just found shared memory is ahead of the network's last messages.
+                    self.pending = Some((sample, until));
+                    return;
+                }
+                self.delivered.give_up(&sample.source().gid);
             }
             if self.early.holds(&sample.source().gid) {
                 self.release_early(deliver);

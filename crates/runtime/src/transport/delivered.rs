@@ -11,6 +11,8 @@ const REMEMBERED: usize = 256;
 struct Writer {
     last: u64,
     used: u64,
+    /// Whether the network was waited for in vain, and has not caught up since.
+    network_lags: bool,
 }
 
 /// The last count delivered from each writer, whichever transport brought it.
@@ -41,13 +43,36 @@ impl Delivered {
         self.writers.get(&source.gid).is_some_and(|writer| source.sequence > writer.last + 1)
     }
 
+    /// Whether the network may still bring what is missing before this message of shared memory.
+    pub(crate) fn may_be_filled(&self, source: Source) -> bool {
+        self.leaves_gap(source) && self.writers.get(&source.gid).is_some_and(|writer| !writer.network_lags)
+    }
+
+    /// The network did not bring in time what was missing before a message. Waiting for it again and again would cost
+    /// more: what shared memory holds meanwhile overflows.
+    pub(crate) fn give_up(&mut self, gid: &[u8; 16]) {
+        if let Some(writer) = self.writers.get_mut(gid) {
+            writer.network_lags = true;
+        }
+    }
+
+    /// The network brought a message, new or a copy: it is worth waiting for once it has caught up.
+    pub(crate) fn heard_over_network(&mut self, source: Source) {
+        if let Some(writer) = self.writers.get_mut(&source.gid)
+            && source.sequence >= writer.last
+        {
+            writer.network_lags = false;
+        }
+    }
+
     /// Takes a message if it is news; false for a copy of one that was delivered.
     pub(crate) fn accept(&mut self, source: Source) -> bool {
         if !self.is_new(source) {
             return false;
         }
         self.uses += 1;
-        let writer = Writer { last: source.sequence, used: self.uses };
+        let network_lags = self.writers.get(&source.gid).is_some_and(|writer| writer.network_lags);
+        let writer = Writer { last: source.sequence, used: self.uses, network_lags };
         if let Some(before) = self.writers.insert(source.gid, writer) {
             self.lost += source.sequence - before.last - 1;
         } else if self.writers.len() > REMEMBERED {
@@ -92,6 +117,21 @@ mod tests {
         assert!(!delivered.leaves_gap(source(2, 9)), "an unknown writer's past is not missed");
         check(&mut delivered, 9, true);
         assert_eq!((delivered.take_lost(), delivered.take_lost()), (2, 0));
+    }
+
+    #[test]
+    fn a_network_that_lags_is_waited_for_once() {
+        let mut delivered = Delivered::default();
+        assert!(delivered.accept(source(1, 1)));
+        assert!(delivered.may_be_filled(source(1, 3)));
+        assert!(!delivered.may_be_filled(source(1, 2)) && !delivered.may_be_filled(source(2, 7)), "no gap");
+        delivered.give_up(&[1; 16]);
+        assert!(delivered.accept(source(1, 3)));
+        assert!(!delivered.may_be_filled(source(1, 9)));
+        delivered.heard_over_network(source(1, 2));
+        assert!(!delivered.may_be_filled(source(1, 9)), "it is still behind");
+        delivered.heard_over_network(source(1, 3));
+        assert!(delivered.may_be_filled(source(1, 9)));
     }
 
     #[test]

@@ -53,15 +53,15 @@ impl Host {
             .map_err(|reason| TransportError::endpoint(&topic.0, &reason))
     }
 
-    /// Opens a topic for reading by the reader that is `gid` on the network; `None` while no process of this host writes
-    /// it.
+    /// Opens a topic for reading by the reader that is `gid` on the network, to be waited for as `token` if there is one;
+    /// `None` while no process of this host writes it.
     pub(crate) fn reader(
         &self,
         topic: &SharedTopic,
         qos: Qos,
         gid: [u8; 16],
         registry: &Registry,
-        token: Token,
+        token: Option<Token>,
     ) -> Result<Option<SharedReader>, TransportError> {
         SharedReader::open(&self.node, &topic.service()?, qos, gid, registry, token)
             .map_err(|reason| TransportError::endpoint(&topic.0, &reason))

@@ -28,7 +28,7 @@ impl SharedReader {
         qos: Qos,
         gid: [u8; 16],
         registry: &Registry,
-        token: Token,
+        token: Option<Token>,
     ) -> Result<Option<Self>, String> {
         let topic = match node.service_builder(name).publish_subscribe::<[u8]>().user_header::<Header>().open() {
             Ok(topic) => topic,
@@ -54,10 +54,11 @@ impl SharedReader {
             .create()
             .map_err(|error| format!("{error:?}"))?;
         let listener = wakeups.listener_builder().create().map_err(|error| format!("{error:?}"))?;
-        let descriptor = descriptor(&listener);
-        registry
-            .register(&mut SourceFd(&descriptor), token, Interest::READABLE)
-            .map_err(|error| format!("cannot wait for it: {error}"))?;
+        if let Some(token) = token {
+            registry
+                .register(&mut SourceFd(&descriptor(&listener)), token, Interest::READABLE)
+                .map_err(|error| format!("cannot wait for it: {error}"))?;
+        }
         Ok(Some(Self { subscriber, listener }))
     }
 

@@ -33,7 +33,7 @@ impl Pair {
     }
 
     fn reader(&self, qos: Qos) -> Option<SharedReader> {
-        self.host.reader(&self.topic, qos, [4; 16], self.poll.registry(), Token(3)).unwrap()
+        self.host.reader(&self.topic, qos, [4; 16], self.poll.registry(), Some(Token(3))).unwrap()
     }
 }
 
