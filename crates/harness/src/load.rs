@@ -88,7 +88,11 @@ pub fn load_journalled(
     for process in &plan.processes {
         let program = process.argv.first().map(Path::new).and_then(Path::file_name);
         match program.and_then(|name| name.to_str()).and_then(catalog::node) {
-            Some(node) => loaded.instances.push(instance(node, process, files, seed, journals)?),
+            Some(node) => {
+                for arguments in each_node(&node, process)? {
+                    loaded.instances.push(instance(node, arguments, process, files, seed, journals)?);
+                }
+            }
             None => loaded.left_out.push(process.label.clone()),
         }
     }
@@ -97,12 +101,13 @@ pub fn load_journalled(
 
 fn instance(
     node: NodeDescription,
+    arguments: Arguments,
     process: &Process,
     files: &dyn Files,
     seed: u64,
     journals: Option<&Journals>,
 ) -> Result<Instance, LoadError> {
-    let (arguments, resolved) = resolved(&node, process, files)?;
+    let resolved = resolved(&node, &arguments, process, files)?;
     let names = Names::new(&arguments.remaps, node.name);
     let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
     let core = trench_journal::build(&node, &context, &resolved, files, &names, journals)
@@ -110,30 +115,43 @@ fn instance(
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
 }
 
-/// The parameters with which `process` starts `node`.
+/// The nodes of the kind `node` that `process` starts, each by its full name, with their parameters.
 ///
 /// # Errors
 /// When its command line or a parameter is wrong.
-pub fn parameters(node: &NodeDescription, process: &Process, files: &dyn Files) -> Result<Parameters, LoadError> {
-    Ok(resolved(node, process, files)?.1)
+pub fn parameters(
+    node: &NodeDescription,
+    process: &Process,
+    files: &dyn Files,
+) -> Result<Vec<(String, Parameters)>, LoadError> {
+    let named = |arguments: Arguments| {
+        let names = Names::new(&arguments.remaps, node.name);
+        let full_name = format!("{}/{}", names.namespace.trim_end_matches('/'), names.node);
+        Ok((full_name, resolved(node, &arguments, process, files)?))
+    };
+    each_node(node, process)?.into_iter().map(named).collect()
+}
+
+/// The command line of `process`, for each of its nodes.
+fn each_node(node: &NodeDescription, process: &Process) -> Result<Vec<Arguments>, LoadError> {
+    let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
+        .map_err(|error| LoadError::Usage { label: process.label.clone(), error })?;
+    Ok(arguments.of_each_node(node.name))
 }
 
 fn resolved(
     node: &NodeDescription,
+    arguments: &Arguments,
     process: &Process,
     files: &dyn Files,
-) -> Result<(Arguments, Parameters), LoadError> {
-    let label = || process.label.clone();
-    let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
-        .map_err(|error| LoadError::Usage { label: label(), error })?;
+) -> Result<Parameters, LoadError> {
     let names = Names::new(&arguments.remaps, node.name);
     let mut descriptors = (node.parameters)();
     // In lock-step there is no network to publish over.
     descriptors.extend(process_parameters());
-    let resolved = arguments
+    arguments
         .resolve_parameters(&names, &descriptors, |path| text(path, process, files))
-        .map_err(|errors| LoadError::Parameters { label: label(), errors })?;
-    Ok((arguments, resolved))
+        .map_err(|errors| LoadError::Parameters { label: process.label.clone(), errors })
 }
 
 /// The text of a parameter file that the launcher would write, or that is there.

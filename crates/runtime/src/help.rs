@@ -4,6 +4,8 @@ use trench_config::ParameterDescriptor;
 use trench_core::NodeDescription;
 
 const ARGUMENTS: &str = "\
+  --namespaces LIST        a node in each of these namespaces, all in this process: \"[robot1, robot2]\"
+
 ROS arguments (repeatable, ended by --):
   -r FROM:=TO              rename a topic or service; __node:=NAME and __ns:=/NAMESPACE rename the node
   -p [NODE:]NAME:=VALUE    set a parameter; VALUE in YAML
@@ -23,7 +25,7 @@ Exit codes:
 /// The text of `--help`.
 pub(crate) fn text(description: &NodeDescription, parameters: &[ParameterDescriptor]) -> String {
     let mut text = format!(
-        "{about}\n\nUsage: {name} [--help] [--ros-args ARGUMENTS [--]]\n\n{ARGUMENTS}\nParameters:\n",
+        "{about}\n\nUsage: {name} [--help] [--namespaces LIST] [--ros-args ARGUMENTS [--]]\n\n{ARGUMENTS}\nParameters:\n",
         about = description.about,
         name = description.name,
     );

@@ -22,6 +22,7 @@ mod run;
 mod signals;
 mod stream;
 mod timer;
+mod topics;
 mod transport;
 
 pub use exit::Exit;

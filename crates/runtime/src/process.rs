@@ -4,6 +4,7 @@ use crate::clock::steady_now;
 use crate::node::{Node, Wake};
 use crate::signals::Signals;
 use crate::timer::Timer;
+use crate::topics::Topics;
 use crate::transport::TransportError;
 use crate::transport::dds::{GraphChange, Participant, StatusReader, TopicName};
 use crate::transport::shared_memory::Host;
@@ -33,7 +34,8 @@ pub(crate) struct Process {
     _signals: Signals,
     status: StatusReader,
     /// What each token means.
-    pub(crate) wakes: Vec<Option<(usize, Wake)>>,
+    wakes: Vec<Option<Wake>>,
+    topics: Topics,
     pub(crate) nodes: Vec<Node>,
     /// Lives as long as the endpoints of the nodes.
     pub(crate) participant: Participant,
@@ -59,6 +61,7 @@ impl Process {
             _signals: signals,
             status,
             wakes: vec![None; OWN_TOKENS],
+            topics: Topics::default(),
             nodes: Vec::new(),
             participant,
             host,
@@ -71,6 +74,7 @@ impl Process {
             participant: &mut self.participant,
             host: &self.host,
             registry: self.poll.registry(),
+            topics: &mut self.topics,
             wakes: &mut self.wakes,
         }
     }
@@ -105,16 +109,23 @@ impl Process {
         Ok(code)
     }
 
+    /// Brings what woke the loop, and before it what has come without waking.
     fn wake(&mut self, token: usize) {
-        if let Some(Some((index, wake))) = self.wakes.get(token)
-            && let Some(node) = self.nodes.get_mut(*index)
-        {
-            node.wake(*wake);
+        self.topics.take_waiting(steady_now(), &mut self.nodes);
+        match self.wakes.get(token).copied().flatten() {
+            Some(Wake::Topic(index)) => self.topics.take(index, steady_now(), &mut self.nodes),
+            Some(Wake::Node(index, wake)) => {
+                if let Some(node) = self.nodes.get_mut(index) {
+                    node.wake(wake);
+                }
+            }
+            None => {}
         }
     }
 
     fn follow_graph(&mut self) {
         for change in self.status.take() {
+            self.topics.graph_changed(&change, &mut self.nodes);
             for node in &mut self.nodes {
                 node.graph_changed(&change);
             }
@@ -146,12 +157,18 @@ impl Process {
     fn tick(&mut self) -> io::Result<()> {
         let now = steady_now();
         let mut next: Option<Steady> = None;
+        if self.nodes.iter().any(|node| node.is_due(now)) {
+            self.topics.take_waiting(now, &mut self.nodes);
+        }
         for node in &mut self.nodes {
-            node.tick(now, &self.host);
+            node.tick(now);
+        }
+        self.topics.tick(now, &self.host, self.poll.registry(), &mut self.nodes);
+        for node in &mut self.nodes {
             let flush = if node.flush() { None } else { Some(now.plus_seconds(FLUSH_SECONDS)) };
             next = next.into_iter().chain(node.next_tick()).chain(flush).min();
         }
-        self.timer.set(next)
+        self.timer.set(next.into_iter().chain(self.topics.next_tick()).min())
     }
 
     /// Last words, and time for them to leave.

@@ -11,10 +11,11 @@ use crate::parameters::ParameterServer;
 use crate::process::Process;
 use crate::transport::TransportError;
 use crate::transport::dds::full_name;
+use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::process::ExitCode;
 use std::{env, io};
 use trench_config::params::USE_SIM_TIME;
-use trench_config::{ConfigError, Parameters};
+use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::arguments::{Arguments, Names, PUBLISH_OVER_NETWORK, UsageError, process_parameters};
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription};
 use trench_journal::{BuildError, Disk, Journals};
@@ -96,14 +97,46 @@ fn try_run(
         return Ok(0);
     }
     let domain = domain(env::var("ROS_DOMAIN_ID").ok())?;
+    // All cores first: what is wrong with one of them ends the process before it works.
+    let mut prepared = Vec::new();
+    let nodes = arguments.of_each_node(description.name);
+    for arguments in &nodes {
+        prepared.push(prepare(description, arguments, &descriptors, domain, journals)?);
+    }
+    if prepared.len() > 1 {
+        raise_file_limit();
+    }
+    let mut process = Process::new(domain)?;
+    for Prepared { core, names, equipment } in prepared {
+        let index = process.nodes.len();
+        let node = connect(core, index, &names, equipment, &mut process.connections())?;
+        process.nodes.push(node);
+    }
+    process.participant.announce()?;
+    Ok(process.run()?)
+}
+
+/// A node that is not connected yet.
+struct Prepared<'a> {
+    core: Box<dyn NodeCore>,
+    names: Names<'a>,
+    equipment: Equipment,
+}
+
+fn prepare<'a>(
+    description: NodeDescription,
+    arguments: &'a Arguments,
+    descriptors: &[ParameterDescriptor],
+    domain: u16,
+    journals: Option<&Journals>,
+) -> Result<Prepared<'a>, RunError> {
     let names = Names::new(&arguments.remaps, description.name);
     let full = full_name(&names.namespace, &names.node);
     let parameters = arguments
-        .resolve_parameters(&names, &descriptors, |path| Disk.read("--params-file", path))
+        .resolve_parameters(&names, descriptors, |path| Disk.read("--params-file", path))
         .map_err(RunError::Config)?;
     let checkpoint = Checkpoint::of(&full, domain);
     let core = build(description, &names, &checkpoint, &parameters, journals)?;
-
     let use_sim_time = parameters.bool(USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
     let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
     let publish_over_network = over_network.to_vec();
@@ -115,13 +148,16 @@ fn try_run(
         rosout: arguments.rosout,
         checkpoint,
         publish_over_network,
-        parameters: ParameterServer::new(full, descriptors, parameters),
+        parameters: ParameterServer::new(full, descriptors.to_vec(), parameters),
     };
-    let mut process = Process::new(domain)?;
-    let node = connect(core, 0, &names, equipment, &mut process.connections())?;
-    process.nodes.push(node);
-    process.participant.announce()?;
-    Ok(process.run()?)
+    Ok(Prepared { core, names, equipment })
+}
+
+/// Lets the process open as many files as it may: each topic and service of each node needs some.
+fn raise_file_limit() {
+    let limit = getrlimit(Resource::Nofile);
+    // Where it stays as it is, opening an endpoint says what is missing.
+    let _unchanged = setrlimit(Resource::Nofile, Rlimit { current: limit.maximum, maximum: limit.maximum });
 }
 
 fn domain(variable: Option<String>) -> Result<u16, UsageError> {

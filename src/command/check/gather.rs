@@ -8,7 +8,6 @@ use trench_check::{Controller, Team, team};
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::Files;
-use trench_core::arguments::{Arguments, Names};
 use trench_harness::{Disk, LoadError, catalog};
 use trench_launch::Process;
 use trench_plan::Plan;
@@ -98,11 +97,11 @@ fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>
     for process in &plan.processes {
         match program(process) {
             Some(CONTROLLER) => {
-                let parameters = parameters(CONTROLLER, process)?;
-                launched.controllers.push(Controller { name: full_name(process), parameters });
+                let nodes = parameters(CONTROLLER, process)?.into_iter();
+                launched.controllers.extend(nodes.map(|(name, parameters)| Controller { name, parameters }));
             }
             Some(ASSIGNMENT) => {
-                let parameters = parameters(ASSIGNMENT, process)?;
+                let Some((_, parameters)) = parameters(ASSIGNMENT, process)?.pop() else { continue };
                 launched.robots = Some(parameters.str_list("robots")?.len());
                 let path = parameters.str("formation_file")?;
                 if !path.is_empty() {
@@ -114,17 +113,6 @@ fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>
         }
     }
     Ok(launched)
-}
-
-/// The name of a node in the graph; its label where its arguments say none.
-fn full_name(process: &Process) -> String {
-    match Arguments::parse(process.argv.iter().skip(1).cloned()) {
-        Ok(arguments) => {
-            let names = Names::new(&arguments.remaps, CONTROLLER);
-            format!("{}/{}", names.namespace.trim_end_matches('/'), names.node)
-        }
-        Err(_) => process.label.clone(),
-    }
 }
 
 /// A path without detours, from the present folder on if it lies there.
@@ -141,7 +129,7 @@ fn program(process: &Process) -> Option<&str> {
     Path::new(process.argv.first()?).file_name()?.to_str()
 }
 
-fn parameters(node: &'static str, process: &Process) -> Result<Parameters, CheckError> {
+fn parameters(node: &'static str, process: &Process) -> Result<Vec<(String, Parameters)>, CheckError> {
     let node = catalog::node(node).ok_or(CheckError::NoNode(node))?;
     Ok(trench_harness::parameters(&node, process, &Disk)?)
 }

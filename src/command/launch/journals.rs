@@ -46,6 +46,6 @@ fn bag(plan: &Plan) -> Option<PathBuf> {
     };
     let process = plan.processes.iter().find(records)?;
     // A recorder with wrong parameters says so itself.
-    let parameters = trench_harness::parameters(&recorder, process, &Disk).ok()?;
+    let (_, parameters) = trench_harness::parameters(&recorder, process, &Disk).ok()?.pop()?;
     parameters.str("output").ok().filter(|output| !output.is_empty()).map(PathBuf::from)
 }

@@ -18,6 +18,9 @@ pub enum UsageError {
     /// Not a level.
     #[error("`--log-level {0}` names no level; write debug, info, warn, error or fatal, or logger:=level")]
     LogLevel(String),
+    /// Not a list of namespaces, each different from the others.
+    #[error("`--namespaces {0}` names no namespaces; write each once: --namespaces \"[robot1, robot2]\"")]
+    Namespaces(String),
     /// ROS_DOMAIN_ID is not a domain.
     #[error("ROS_DOMAIN_ID is `{0}`; write a whole number from 0 to 232")]
     Domain(String),

@@ -1,6 +1,7 @@
-//! The command line of a ROS 2 node: `--ros-args ... [--]`, as often as one likes, and `--help`.
+//! The command line of a ROS 2 node: `--ros-args ... [--]`, as often as one likes, `--namespaces` and `--help`.
 
 mod error;
+mod namespaces;
 mod parameters;
 mod remap;
 
@@ -41,6 +42,8 @@ pub struct Arguments {
     pub rosout: bool,
     /// Whether log lines go to the console.
     pub console: bool,
+    /// `--namespaces LIST`: a node in each of them instead of one; see [`Arguments::of_each_node`].
+    pub namespaces: Vec<String>,
     /// `--help` was given.
     pub help: bool,
 }
@@ -54,6 +57,7 @@ impl Default for Arguments {
             log_levels: Vec::new(),
             rosout: true,
             console: true,
+            namespaces: Vec::new(),
             help: false,
         }
     }
@@ -73,6 +77,10 @@ impl Arguments {
                 "--ros-args" => ros = true,
                 "--" if ros => ros = false,
                 "-h" | "--help" => parsed.help = true,
+                "--namespaces" if !ros => {
+                    let list = rest.next().ok_or_else(|| UsageError::MissingValue(argument.clone()))?;
+                    parsed.namespaces = namespaces::parse(&list)?;
+                }
                 _ if ros => parsed.ros_argument(&argument, &mut rest)?,
                 _ => return Err(UsageError::Unknown(argument)),
             }

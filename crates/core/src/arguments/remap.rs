@@ -66,6 +66,11 @@ impl Remap {
         Ok(Self { node, target, from: from.to_owned(), to: to.to_owned() })
     }
 
+    /// `__ns:=namespace`, for any node; the namespace is absolute.
+    pub(super) fn namespace(namespace: String) -> Self {
+        Self { node: None, target: Target::Namespace, from: String::new(), to: namespace }
+    }
+
     fn is_for(&self, node: &str) -> bool {
         self.node.as_deref().is_none_or(|name| name == node)
     }

@@ -78,3 +78,28 @@ fn a_rule_for_another_node_does_not_rename_this_one() {
     let names = Names::new(&parsed.remaps, "this");
     assert_eq!((names.node.as_str(), names.namespace.as_str()), ("this", "/a"));
 }
+
+#[test]
+fn a_process_has_a_node_in_each_namespace() {
+    let check = |line: &[&str], expected: &[(&str, &str)]| {
+        let parsed = Arguments::parse(line.iter().map(|word| (*word).to_owned())).unwrap();
+        let nodes = parsed.of_each_node("pilot");
+        let names = nodes.iter().map(|node| Names::new(&node.remaps, "pilot"));
+        let found: Vec<(String, String)> = names.map(|names| (names.namespace, names.node)).collect();
+        let expected: Vec<_> = expected.iter().map(|(space, node)| ((*space).to_owned(), (*node).to_owned())).collect();
+        assert_eq!(found, expected, "{line:?}");
+    };
+    check(&[], &[("/", "pilot")]);
+    check(&["--namespaces", "[robot1, /lab/robot2]"], &[("/robot1", "pilot"), ("/lab/robot2", "pilot")]);
+    check(&["--namespaces", "robot1/"], &[("/robot1", "pilot")]);
+    let below = ["--namespaces", "[a, /b]", "--ros-args", "-r", "__ns:=/lab", "-r", "__node:=driver"];
+    check(&below, &[("/lab/a", "driver"), ("/b", "driver")]);
+}
+
+#[test]
+fn namespaces_that_are_none_are_refused() {
+    for list in ["[]", "[robot1, robot1]", "[robot1, /robot1]", "[1, 2]", "[/]", "[robot1"] {
+        let refused = Arguments::parse(["--namespaces".to_owned(), list.to_owned()]).unwrap_err();
+        assert_eq!(refused, UsageError::Namespaces(list.to_owned()));
+    }
+}

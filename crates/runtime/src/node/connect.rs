@@ -2,12 +2,13 @@
 
 use super::parameters::NodeParameters;
 use super::subscription::Reading;
-use super::{Caller, Node, Ports, Publication, Subscription, Wake};
+use super::{Caller, Node, NodeWake, Ports, Publication, Subscription, Wake};
 use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::log::Logger;
 use crate::parameters::ParameterServer;
 use crate::stream::Stream;
+use crate::topics::{Heard, Listener, Topics};
 use crate::transport::TransportError;
 use crate::transport::dds::{Participant, TopicName, full_name};
 use crate::transport::shared_memory::{Host, SharedWriter};
@@ -24,26 +25,42 @@ pub(crate) struct Connections<'a> {
     pub(crate) participant: &'a mut Participant,
     pub(crate) host: &'a Host,
     pub(crate) registry: &'a Registry,
-    /// What each token of the loop means: the node's index and what arrived there.
-    pub(crate) wakes: &'a mut Vec<Option<(usize, Wake)>>,
+    /// What the process reads.
+    pub(crate) topics: &'a mut Topics,
+    /// What each token of the loop means.
+    pub(crate) wakes: &'a mut Vec<Option<Wake>>,
 }
 
 impl Connections<'_> {
-    pub(super) fn token(&mut self, node: usize, wake: Wake) -> Token {
-        self.wakes.push(Some((node, wake)));
+    fn token(&mut self, wake: Wake) -> Token {
+        self.wakes.push(Some(wake));
         Token(self.wakes.len() - 1)
     }
 
-    pub(super) fn register(
-        &mut self,
-        node: usize,
-        wake: Wake,
-        source: &mut dyn event::Source,
-    ) -> Result<(), TransportError> {
-        let token = self.token(node, wake);
+    pub(super) fn register(&mut self, wake: Wake, source: &mut dyn event::Source) -> Result<(), TransportError> {
+        let token = self.token(wake);
         source
             .register(self.registry, token, Interest::READABLE)
             .map_err(|source| TransportError::System { what: "cannot wait for a topic", source })
+    }
+
+    /// Opens both ends of a subscription to `topic`, an absolute name, as the next topic of the process.
+    pub(crate) fn open(
+        &mut self,
+        node: &str,
+        topic: String,
+        subscribe: &Subscribe,
+    ) -> Result<Subscription, TransportError> {
+        let network_name = TopicName::message(&topic, subscribe.type_info.name);
+        let shared_name = self.host.topic(&topic, subscribe.type_info.name);
+        let mut network = self.participant.reader(node, &network_name, subscribe.qos)?;
+        let wake = Wake::Topic(self.topics.next());
+        let mut local_token = None;
+        if subscribe.wakes {
+            self.register(wake, &mut network)?;
+            local_token = Some(self.token(wake));
+        }
+        Ok(Subscription::new(Reading { topic, network_name, shared_name, qos: subscribe.qos }, network, local_token))
     }
 }
 
@@ -73,18 +90,14 @@ pub(crate) fn connect(
         equipment.logger.attach(to.participant.writer(&node, &name, ROSOUT)?);
     }
     let interface = core.interface().clone();
-    let clock = match equipment.clock {
-        Clock::System => None,
-        Clock::Simulated(_) => {
-            let subscribe = Subscribe::to::<ClockMessage>("/clock", Qos::SENSOR);
-            let topic = names.resolve(&subscribe.topic, NameKind::Topic);
-            Some(subscription(&node, index, topic, &subscribe, Wake::Clock, to)?)
-        }
-    };
-    let mut subscriptions = Vec::new();
+    if matches!(equipment.clock, Clock::Simulated(_)) {
+        let subscribe = Subscribe::to::<ClockMessage>("/clock", Qos::SENSOR);
+        let topic = names.resolve(&subscribe.topic, NameKind::Topic);
+        to.subscribe(&node, Listener { node: index, what: Heard::Clock }, topic, &subscribe, true)?;
+    }
     for (port, subscribe) in interface.subscriptions.iter().enumerate() {
         let topic = names.resolve(&subscribe.topic, NameKind::Topic);
-        subscriptions.push(subscription(&node, index, topic, subscribe, Wake::Messages(port), to)?);
+        to.subscribe(&node, Listener { node: index, what: Heard::Port(port) }, topic, subscribe, true)?;
     }
     let mut publications = Vec::new();
     for advertise in &interface.publications {
@@ -94,18 +107,19 @@ pub(crate) fn connect(
     for (service, serve) in interface.services.iter().enumerate() {
         let name = names.resolve(&serve.name, NameKind::Service);
         let mut server = to.participant.server(&node, &name, serve.service.name)?;
-        to.register(index, Wake::Requests(service), &mut server.requests)?;
+        to.register(Wake::Node(index, NodeWake::Requests(service)), &mut server.requests)?;
         servers.push(server);
     }
     let mut callers = Vec::new();
     for (client, call) in interface.clients.iter().enumerate() {
         let name = names.resolve(&call.name, NameKind::Service);
         let mut service = to.participant.client(&node, &name, call.service.name)?;
-        to.register(index, Wake::Responses(client), &mut service.responses)?;
+        to.register(Wake::Node(index, NodeWake::Responses(client)), &mut service.responses)?;
         callers.push(Caller::new(service));
     }
     let streams = interface.byte_streams.iter().enumerate();
-    let streams = streams.map(|(number, stream)| Stream::new(stream, to.token(index, Wake::Stream(number)))).collect();
+    let mut token = |number| to.token(Wake::Node(index, NodeWake::Stream(number)));
+    let streams = streams.map(|(number, stream)| Stream::new(stream, token(number))).collect();
     let registry = to
         .registry
         .try_clone()
@@ -125,7 +139,7 @@ pub(crate) fn connect(
         broken: Vec::new(),
         exit: None,
     };
-    Ok(Node { full_name: node, core, subscriptions, clock, parameters, ports })
+    Ok(Node { full_name: node, subscribed: interface.subscriptions.len(), core, parameters, ports })
 }
 
 /// Late joiners get the last lines; as many as rclcpp keeps.
@@ -177,24 +191,4 @@ fn shared_writer(
             equipment.logger.log(equipment.clock.now().ros, Level::Warn, &text);
         })
         .ok()
-}
-
-/// Opens both ends of a subscription to `topic`, an absolute name.
-pub(super) fn subscription(
-    node: &str,
-    index: usize,
-    topic: String,
-    subscribe: &Subscribe,
-    wake: Wake,
-    to: &mut Connections<'_>,
-) -> Result<Subscription, TransportError> {
-    let network_name = TopicName::message(&topic, subscribe.type_info.name);
-    let shared_name = to.host.topic(&topic, subscribe.type_info.name);
-    let mut network = to.participant.reader(node, &network_name, subscribe.qos)?;
-    let mut local_token = None;
-    if subscribe.wakes {
-        to.register(index, wake, &mut network)?;
-        local_token = Some(to.token(index, wake));
-    }
-    Ok(Subscription::new(Reading { topic, network_name, shared_name, qos: subscribe.qos }, network, local_token))
 }

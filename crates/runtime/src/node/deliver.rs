@@ -1,15 +1,12 @@
 //! Bringing what arrived to the core.
 
-use super::{Node, Publication, Subscription, Wake};
-use crate::transport::shared_memory::Host;
+use super::{Node, NodeWake, Publication};
 use std::time::Instant;
-use trench_core::{Event, RosTime, Steady};
-use trench_msgs::Message;
-use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
+use trench_core::{Event, Level, RosTime, Sink, Steady};
 
 impl Node {
     /// Hands an event to the core, with both times of now.
-    pub(super) fn handle(&mut self, event: Event<'_>) {
+    pub(crate) fn handle(&mut self, event: Event<'_>) {
         self.core.handle(self.ports.clock.now(), event, &mut self.ports);
         self.close_broken_streams();
     }
@@ -26,23 +23,19 @@ impl Node {
         self.handle(Event::Shutdown);
     }
 
-    /// Brings what woke the loop, and before it what has come without waking.
-    pub(crate) fn wake(&mut self, wake: Wake) {
-        self.take_waiting();
+    /// Brings what woke the loop.
+    pub(crate) fn wake(&mut self, wake: NodeWake) {
         match wake {
-            Wake::Clock => self.take_clock(),
-            Wake::Messages(port) => self.take_messages(port),
-            Wake::Requests(service) => self.take_requests(service),
-            Wake::Responses(client) => self.take_responses(client),
-            Wake::Stream(stream) => self.take_bytes(stream),
-            Wake::Parameters(service) => self.take_parameter_requests(service),
+            NodeWake::Requests(service) => self.take_requests(service),
+            NodeWake::Responses(client) => self.take_responses(client),
+            NodeWake::Stream(stream) => self.take_bytes(stream),
+            NodeWake::Parameters(service) => self.take_parameter_requests(service),
         }
     }
 
     /// What time brings: a wake-up that is due, calls that expired, streams to be opened.
-    pub(crate) fn tick(&mut self, now: Steady, host: &Host) {
-        if self.core.next_wakeup().is_some_and(|at| at <= now) {
-            self.take_waiting();
+    pub(crate) fn tick(&mut self, now: Steady) {
+        if self.is_due(now) {
             self.handle(Event::Wakeup);
         }
         for client in 0..self.ports.callers.len() {
@@ -50,16 +43,19 @@ impl Node {
                 self.handle(Event::Response { client, cdr: None });
             }
         }
-        self.open_shared_memory(now, host);
         self.open_streams(now);
+    }
+
+    /// Whether the core wants to wake up.
+    pub(crate) fn is_due(&self, now: Steady) -> bool {
+        self.core.next_wakeup().is_some_and(|at| at <= now)
     }
 
     /// When [`Node::tick`] is to be called next.
     pub(crate) fn next_tick(&self) -> Option<Steady> {
         let expiries = self.ports.callers.iter().filter_map(|caller| caller.next_deadline());
         let retries = self.ports.streams.iter().filter_map(|stream| stream.next_retry());
-        let searches = self.readers().filter_map(Subscription::next_retry);
-        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).chain(searches).min()
+        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).min()
     }
 
     /// The code that the core asked to end with, if it did.
@@ -77,49 +73,9 @@ impl Node {
         self.ports.settle(deadline);
     }
 
-    pub(super) fn take_clock(&mut self) {
-        let Some(clock) = &mut self.clock else { return };
-        let ports = &mut self.ports;
-        let mut problems = Vec::new();
-        clock.drain(
-            ports.clock.now().steady,
-            |_, cdr| {
-                if let Ok(message) = ClockMessage::decode(cdr) {
-                    ports.clock.set(RosTime::from(&message.clock));
-                }
-            },
-            |problem| problems.push(problem),
-        );
-        self.report("/clock", &problems);
-    }
-
-    /// Takes the messages of topics that do not wake the node.
-    fn take_waiting(&mut self) {
-        for port in 0..self.subscriptions.len() {
-            if !self.subscriptions[port].wakes() {
-                self.take_messages(port);
-            }
-        }
-    }
-
-    pub(super) fn take_messages(&mut self, port: usize) {
-        let (core, ports) = (&mut self.core, &mut self.ports);
-        let Some(subscription) = self.subscriptions.get_mut(port) else { return };
-        let mut problems = Vec::new();
-        subscription.drain(
-            ports.clock.now().steady,
-            |source, cdr| core.handle(ports.clock.now(), Event::Message { port, source, cdr }, ports),
-            |problem| problems.push(problem),
-        );
-        let lost = subscription.take_lost();
-        if lost > 0 || !problems.is_empty() {
-            let topic = subscription.topic().to_owned();
-            if lost > 0 {
-                self.ports.warn(&format!("{topic}: {lost} message(s) lost: they came faster than this node reads"));
-            }
-            self.report(&topic, &problems);
-        }
-        self.close_broken_streams();
+    /// Takes a time from /clock.
+    pub(crate) fn set_clock(&mut self, time: RosTime) {
+        self.ports.clock.set(time);
     }
 
     fn take_requests(&mut self, service: usize) {
@@ -150,10 +106,8 @@ impl Node {
         self.ports.warn(text);
     }
 
-    fn report(&mut self, topic: &str, problems: &[String]) {
-        if let Some(first) = problems.first() {
-            let count = problems.len();
-            self.ports.warn(&format!("{topic}: {count} unreadable message(s) dropped, the first because: {first}"));
-        }
+    /// Tells developers something of the runtime's own in the node's name.
+    pub(crate) fn debug(&mut self, text: &str) {
+        self.ports.log(Level::Debug, text);
     }
 }

@@ -25,20 +25,25 @@ use trench_core::NodeCore;
 /// A running node.
 pub(crate) struct Node {
     full_name: String,
+    /// How many topics its core reads.
+    subscribed: usize,
     core: Box<dyn NodeCore>,
-    subscriptions: Vec<Subscription>,
-    clock: Option<Subscription>,
     parameters: NodeParameters,
     ports: Ports,
 }
 
-/// What woke the loop for a node.
+/// What woke the loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wake {
-    /// /clock.
-    Clock,
-    /// A subscription.
-    Messages(usize),
+    /// A topic that nodes of the process read.
+    Topic(usize),
+    /// Something that is one node's alone.
+    Node(usize, NodeWake),
+}
+
+/// What woke the loop for one node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NodeWake {
     /// A service's requests.
     Requests(usize),
     /// A client's responses.

@@ -1,7 +1,7 @@
 //! A node's parameters on the network.
 
 use super::connect::Connections;
-use super::{Node, Wake};
+use super::{Node, NodeWake, Wake};
 use crate::parameters::{ParameterServer, ParameterService};
 use crate::transport::TransportError;
 use crate::transport::dds::{NetworkWriter, PendingRequest, ServiceServer, TopicName};
@@ -32,7 +32,7 @@ impl NodeParameters {
         for (number, service) in ParameterService::ALL.into_iter().enumerate() {
             let name = format!("{node}/{}", service.name());
             let mut opened = to.participant.server(node, &name, service.type_name())?;
-            to.register(index, Wake::Parameters(number), &mut opened.requests)?;
+            to.register(Wake::Node(index, NodeWake::Parameters(number)), &mut opened.requests)?;
             services.push(opened);
         }
         let name = TopicName::message("/parameter_events", ParameterEvent::TYPE.name);

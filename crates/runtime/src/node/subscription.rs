@@ -6,7 +6,7 @@ use crate::transport::dds::{NetworkReader, NetworkSample, TopicName};
 use crate::transport::shared_memory::{Host, SharedReader, SharedSample, SharedTopic};
 use rustdds::mio1::{Registry, Token};
 use std::collections::VecDeque;
-use trench_core::{Durability, Qos, Reliability, Source, Steady};
+use trench_core::{Durability, Qos, Reliability, Source, Steady, Subscribe};
 
 /// How often, and for how long after a writer was seen, shared memory is looked for.
 const RETRY_SECONDS: f64 = 0.2;
@@ -72,6 +72,12 @@ impl Subscription {
     /// The absolute name.
     pub(crate) fn topic(&self) -> &str {
         &self.topic
+    }
+
+    /// Whether it is what `subscribe` asks for under the absolute name `topic`.
+    pub(crate) fn reads(&self, topic: &str, subscribe: &Subscribe) -> bool {
+        let name = TopicName::message(topic, subscribe.type_info.name);
+        self.network_name == name && self.qos == subscribe.qos && self.wakes() == subscribe.wakes
     }
 
     /// How the network names topic and type.

@@ -6,7 +6,7 @@ use super::status::StatusReader;
 use super::{NetworkReader, NetworkWriter, ServiceClient, ServiceServer, TransportError, qos};
 use rustdds::no_key::{DataWriter, SimpleDataReader};
 use rustdds::{
-    DomainParticipant, DomainParticipantBuilder, Publisher, QosPolicies, QosPolicyBuilder, Subscriber, Topic,
+    DomainParticipant, DomainParticipantBuilder, GUID, Publisher, QosPolicies, QosPolicyBuilder, Subscriber, Topic,
 };
 use rustdds::{RTPSEntity, TopicKind};
 use trench_core::Qos;
@@ -103,6 +103,11 @@ impl Participant {
     /// Opens a topic for reading.
     pub(crate) fn reader(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<NetworkReader, TransportError> {
         Ok(NetworkReader::new(self.data_reader(node, name, qos::reader(qos))?))
+    }
+
+    /// Tells the ROS graph that another node of this process reads by `reader` too.
+    pub(crate) fn share_reader(&mut self, node: &str, reader: GUID) {
+        self.graph.add(node, Endpoint::Reader(reader));
     }
 
     /// Opens the serving end of a service.
