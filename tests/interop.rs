@@ -63,6 +63,26 @@ fn interop_rclpy_sees_decodes_and_sets_the_launched_square() {
     assert_eq!(said.matches("process has finished cleanly").count(), 10, "{said}");
 }
 
+/// What every node of the square has, when nothing changes any more.
+fn nodes_of_the_square(island: &Island, together: bool) -> Value {
+    let argument = format!("together:={together}");
+    let _launch = Launch::start(island, "launch/square.launch.yaml", &["duration:=600.0", &argument]);
+    let robots = (1..=4).map(|robot| format!(" --wait-for /robot{robot}/formation_controller"));
+    let ready = format!("--wait-for /operator --wait-for /rf_bridge --settle 8{}", robots.collect::<String>());
+    island.ask("peer_nodes.py", &ready)
+}
+
+#[test]
+fn interop_controllers_in_one_process_have_the_same_graph() {
+    let island = Island::new(0);
+    let separate = nodes_of_the_square(&island, false);
+    let together = nodes_of_the_square(&island, true);
+    assert_eq!(separate.as_object().unwrap().len(), 10, "{separate:#}");
+    let topics = separate["/robot2/formation_controller"]["subscriber"].as_object().unwrap();
+    assert!(topics.contains_key("/robot1/leader_state") && topics.contains_key("/team_state"), "{topics:?}");
+    assert_eq!(separate, together);
+}
+
 fn team_state_is_sensible(messages: &[Value]) {
     assert!(messages.len() > 30, "{} messages in 2 s at 30 Hz", messages.len());
     for pair in messages.windows(2) {
@@ -150,6 +170,28 @@ fn parameter_services_work(island: &Island) {
         assert!(reasons.iter().all(|part| reason.contains(part)), "{change}: {reason}");
         assert_eq!(gain(), 3.0, "{change}: the old value stays in force");
     }
+}
+
+/// Longer than a datagram of an Ethernet, so only for those who announce loopback alone (docs/decisions/0001).
+#[test]
+fn interop_all_parameters_at_once_over_loopback() {
+    let island = Island::new(2);
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("formation_controller");
+    let mut controller = island.command(program).args(["--ros-args", "-r", "__ns:=/robot1"]).spawn().unwrap();
+    let profile = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("config/fastdds_loopback.xml");
+    let output = island
+        .python("peer_param.py")
+        .args(["/robot1/formation_controller", "dump", "--timeout", "40"])
+        .env("FASTDDS_DEFAULT_PROFILES_FILE", profile)
+        .env_remove("FASTDDS_BUILTIN_TRANSPORTS")
+        .output()
+        .unwrap();
+    controller.kill().unwrap();
+    controller.wait().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let values: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(values.as_object().unwrap().len() > 50, "{values}");
+    assert_eq!(number(&values, "/gains.k2"), 2.5);
 }
 
 #[test]

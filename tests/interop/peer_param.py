@@ -1,4 +1,4 @@
-"""Lists, gets or sets parameters of a node through the standard services, like `ros2 param`."""
+"""Lists, gets, sets or dumps (all at once) parameters of a node through the standard services, like `ros2 param`."""
 
 import json
 
@@ -11,7 +11,7 @@ import peer
 def main() -> None:
     arguments = peer.parser(__doc__)
     arguments.add_argument("node", help="for example /robot1/formation_controller")
-    arguments.add_argument("action", choices=["list", "get", "set"])
+    arguments.add_argument("action", choices=["list", "get", "set", "dump"])
     arguments.add_argument("name", nargs="?")
     arguments.add_argument("value", nargs="?", help="JSON: true, 1, 1.0, \"text\", [1.0, 2.0]")
     given = arguments.parse_args()
@@ -25,7 +25,11 @@ def main() -> None:
                 peer.fail(f"{given.node}/{name} does not answer within {given.timeout} s")
             return future.result()
 
-        if given.action == "list":
+        if given.action == "dump":
+            names = call(ListParameters, "list_parameters", ListParameters.Request()).result.names
+            values = call(GetParameters, "get_parameters", GetParameters.Request(names=names)).values
+            peer.report({name: peer.plain(parameter_value_to_python(value)) for name, value in zip(names, values, strict=True)})
+        elif given.action == "list":
             names = call(ListParameters, "list_parameters", ListParameters.Request()).result.names
             peer.report({"names": sorted(names)})
         elif given.action == "get":

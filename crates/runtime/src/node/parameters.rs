@@ -80,7 +80,9 @@ impl Node {
         let (core, at) = (&mut self.core, self.ports.clock.now().ros);
         match self.parameters.server.answer(service, cdr, at, &mut |values| core.set_parameters(values)) {
             Ok(reply) => {
-                let _congested = self.parameters.services[number].respond(request, reply.response.into());
+                if let Err(reason) = self.parameters.services[number].respond(request, reply.response.into()) {
+                    self.ports.warn(&format!("{}: a response was not sent: {reason}", service.name()));
+                }
                 if let Some(event) = reply.event {
                     let names: Vec<_> = event.changed_parameters.iter().map(|one| one.name.as_str()).collect();
                     self.ports.log(Level::Info, &format!("parameters changed: {}", names.join(", ")));

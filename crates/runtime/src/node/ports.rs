@@ -98,8 +98,8 @@ impl Sink for Ports {
 
     fn respond(&mut self, service: usize, id: RequestId, response: &dyn Encode) {
         let (Some(server), Some(request)) = (self.servers.get_mut(service), self.pending.remove(&id)) else { return };
-        if server.respond(request, response.to_cdr().into()).is_err() {
-            self.warn("a response was not sent: its clients are more than 8192 responses behind");
+        if let Err(reason) = server.respond(request, response.to_cdr().into()) {
+            self.warn(&format!("a response was not sent: {reason}"));
         }
     }
 

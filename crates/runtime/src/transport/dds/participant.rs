@@ -114,7 +114,7 @@ impl Participant {
     pub(crate) fn server(&mut self, node: &str, service: &str, kind: &str) -> Result<ServiceServer, TransportError> {
         let requests = self.reader(node, &TopicName::request(service, kind), qos::SERVICE)?;
         let responses = self.writer(node, &TopicName::response(service, kind), qos::SERVICE)?;
-        Ok(ServiceServer::new(requests, responses))
+        Ok(ServiceServer::new(requests, responses, self.participant.clone()))
     }
 
     /// Opens the calling end of a service.

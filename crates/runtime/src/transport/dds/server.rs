@@ -1,9 +1,9 @@
 //! The serving end of a service, in the "enhanced" mapping of DDS-RPC that ROS 2's Fast DDS uses.
 
 use super::reader::NetworkReader;
-use super::writer::{Congested, NetworkWriter};
+use super::writer::{LONGEST_RELATED, NetworkWriter};
 use rustdds::bytes::Bytes;
-use rustdds::{GUID, SampleIdentity, SequenceNumber};
+use rustdds::{DomainParticipant, GUID, SampleIdentity, SequenceNumber};
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
@@ -21,17 +21,32 @@ struct Held {
     until: Instant,
 }
 
+/// Why a response was not sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum NotSent {
+    /// The clients acknowledge nothing any more.
+    #[error("its clients are more than 8192 responses behind")]
+    Congested,
+    /// RustDDS 0.15.1 would cut it up and garble it.
+    #[error(
+        "its {0} bytes need more than one datagram: ask for less at once, or announce loopback alone \
+         (FASTDDS_DEFAULT_PROFILES_FILE=config/fastdds_loopback.xml)"
+    )]
+    TooLong(usize),
+}
+
 /// Takes requests and sends responses.
 pub(crate) struct ServiceServer {
     pub(crate) requests: NetworkReader,
     responses: NetworkWriter,
+    participant: DomainParticipant,
     readers: BTreeSet<GUID>,
     held: Vec<Held>,
 }
 
 impl ServiceServer {
-    pub(super) fn new(requests: NetworkReader, responses: NetworkWriter) -> Self {
-        Self { requests, responses, readers: BTreeSet::new(), held: Vec::new() }
+    pub(super) fn new(requests: NetworkReader, responses: NetworkWriter, participant: DomainParticipant) -> Self {
+        Self { requests, responses, participant, readers: BTreeSet::new(), held: Vec::new() }
     }
 
     /// The next request (CDR with its header), or what is wrong with it.
@@ -49,12 +64,29 @@ impl ServiceServer {
     }
 
     /// Answers a request.
-    pub(crate) fn respond(&mut self, request: PendingRequest, response: Bytes) -> Result<(), Congested> {
+    pub(crate) fn respond(&mut self, request: PendingRequest, response: Bytes) -> Result<(), NotSent> {
         if self.reaches(request) {
-            return self.responses.write_related(response, request.0).map(|_| ());
+            return self.send(request, response);
         }
         self.held.push(Held { request, response, until: Instant::now() + DISCOVERY });
         Ok(())
+    }
+
+    fn send(&mut self, request: PendingRequest, response: Bytes) -> Result<(), NotSent> {
+        if response.len() > LONGEST_RELATED && !self.all_read_on_loopback() {
+            return Err(NotSent::TooLong(response.len()));
+        }
+        self.responses.write_related(response, request.0).map(|_| ()).map_err(|_congested| NotSent::Congested)
+    }
+
+    /// Whether all readers of the responses announce loopback alone, whose datagrams hold 64 kB. A response goes to all.
+    fn all_read_on_loopback(&self) -> bool {
+        let found = self.participant.discovered_readers();
+        self.readers.iter().all(|reader| {
+            let found = found.iter().map(|found| &found.reader_proxy).find(|found| found.remote_reader_guid == *reader);
+            let places = found.map(|found| &found.unicast_locator_list[..]).unwrap_or_default();
+            !places.is_empty() && places.iter().all(|place| place.is_loopback())
+        })
     }
 
     /// Follows who reads the responses.
@@ -69,8 +101,8 @@ impl ServiceServer {
         let now = Instant::now();
         for held in std::mem::take(&mut self.held) {
             if self.reaches(held.request) || held.until <= now {
-                // The client is there now or never; a full network loses it like any other response.
-                let _congested = self.responses.write_related(held.response, held.request.0);
+                // The client is there now or never. It asked before it was known: nobody is told if this is not sent.
+                let _not_sent = self.send(held.request, held.response);
             } else {
                 self.held.push(held);
             }

@@ -16,6 +16,11 @@ const WAITING: usize = 8192;
 /// can read them.
 pub(crate) const LONGEST_COUNTED: usize = 1024;
 
+/// The longest message that can say which request it answers, bytes: RustDDS 0.15.1 cuts up what is longer than 1452 bytes
+/// less heartbeat (32) and header (48) where a reader announces an Ethernet address. The request, too, is said in inline
+/// quality of service.
+pub(super) const LONGEST_RELATED: usize = 1372;
+
 /// The network can take no more: the readers have not acknowledged thousands of messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Congested;
