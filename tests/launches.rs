@@ -1,0 +1,73 @@
+//! The launch files of the thesis's chapters at test-bed scale, in lock-step: each with its verdict.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+#[expect(dead_code, reason = "the experiments use the rest")]
+mod support;
+
+use support::{Finished, drive};
+use trench_bag::run::{SummaryOptions, summary};
+use trench_harness::Ending;
+
+/// Drives a launch file to its operator's verdict that all robots stand, and asks ground truth for contacts.
+fn stands(file: &str, arguments: &[(&str, &str)]) -> Finished {
+    let finished = drive(file, arguments);
+    let summary = summary(&finished.run, &SummaryOptions::default());
+    let end = Ending::Exit { node: "/operator".to_owned(), code: 0 };
+    assert_eq!(finished.ending, end, "{file} {arguments:?}: {:?}\n{summary}", finished.complaints);
+    assert!(finished.run.contacts.is_empty(), "{file} {arguments:?}: {:?}", finished.run.contacts);
+    assert!(summary.closest.as_ref().unwrap().gap > 0.0, "{file} {arguments:?}: {summary}");
+    finished
+}
+
+#[test]
+fn fifteen_robots_track_their_goal_points_on_a_sinusoid() {
+    let finished = stands("sinusoid.launch.yaml", &[]);
+    assert_eq!(finished.run.robots.len(), 15);
+    // While the goal points move, too: the centre is the look-ahead of 0.035 m behind, in the curves a little beside.
+    for (robot, track) in &finished.run.robots {
+        let late = track.poses.iter().filter(|pose| (12.0..20.0).contains(&pose.time));
+        let far = late.map(|pose| {
+            let [x, y] = track.goal_at(pose.time).unwrap();
+            libm::hypot(pose.x - x, pose.y - y)
+        });
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 0.08, "{robot}: {far} m from its moving goal point");
+    }
+}
+
+#[test]
+fn a_chain_takes_up_a_diagonal_along_directions_of_attraction() {
+    let chain = stands("chain.launch.yaml", &[]).conformity.finish();
+    assert!(chain.at_the_end() <= 0.05, "{} m", chain.at_the_end());
+}
+
+#[test]
+fn a_chain_is_drawn_to_its_nearest_points_with_and_without_obstacles() {
+    for obstacles in [None, Some(("obstacles", ""))] {
+        let finished = stands("nearest_chain.launch.yaml", obstacles.as_slice());
+        let chain = finished.conformity.finish();
+        assert!(chain.at_the_end() <= 0.05, "{obstacles:?}: {} m", chain.at_the_end());
+        // Past all discs, the last of which lies 2.4 m up the diagonal.
+        let behind = finished.run.robots.values().filter(|track| track.poses.last().unwrap().x < 2.5).count();
+        assert_eq!(behind, 0, "{obstacles:?}");
+    }
+}
+
+#[test]
+fn three_robots_pass_a_long_corridor() {
+    let finished = stands("corridor.launch.yaml", &[]);
+    for (robot, track) in &finished.run.robots {
+        let inside = track.poses.iter().filter(|pose| (1.1..2.7).contains(&pose.x));
+        let widest = inside.map(|pose| (pose.y - 1.4).abs()).fold(0.0, f64::max);
+        assert!(widest > 0.0 && widest < 0.27, "{robot} goes through: {widest} m beside the middle");
+        assert!(track.poses.last().unwrap().x > 2.6, "{robot}");
+    }
+}
+
+#[test]
+fn controllers_in_one_process_drive_as_separate_ones() {
+    for file in ["square.launch.yaml", "column.launch.yaml"] {
+        let run = |together| drive(file, &[("together", together), ("duration", "10.0")]).digest;
+        assert_eq!(run("true"), run("false"), "{file}");
+    }
+}
