@@ -3,6 +3,7 @@
 //! `TRENCH_SEEDS` sets how many random starts each takes (20 in scripts/acceptance).
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[expect(dead_code, reason = "the pursuits use the rest")]
 mod support;
 
 use support::{Finished, drive, random_poses};

@@ -2,110 +2,12 @@
 //! recorded bag.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus};
-use trench_bag::BagReader;
-use trench_bag::run::{Run, RunSummary, SummaryOptions, summary};
+mod live_support;
 
-/// The programs a launch starts; `cargo build --workspace --bins` makes them.
-const PROGRAMS: [&str; 8] = [
-    "bag_recorder",
-    "formation_controller",
-    "leader_assignment",
-    "obstacle_mapper",
-    "operator",
-    "overhead_localizer",
-    "rf_bridge",
-    "testbed",
-];
-
-/// A launch with a domain, shared memory, a state folder and a serial port of its own.
-struct Launch {
-    folder: tempfile::TempDir,
-    domain: u32,
-}
-
-impl Launch {
-    fn new(domain: u32) -> Self {
-        let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
-        for program in PROGRAMS {
-            let path = trench.with_file_name(program);
-            assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
-        }
-        Self { folder: tempfile::tempdir().unwrap(), domain }
-    }
-
-    fn bag(&self) -> PathBuf {
-        self.folder.path().join("bag")
-    }
-
-    /// Runs a launch file to its end, recording a bag.
-    fn run(&self, file: &str, arguments: &[&str]) -> (ExitStatus, String) {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let output = Command::new(env!("CARGO_BIN_EXE_trench"))
-            .arg("launch")
-            .arg(root.join("launch").join(file))
-            .arg("record:=true")
-            .arg(format!("bag:={}", self.bag().display()))
-            .arg(format!("port:={}", self.folder.path().join("port").display()))
-            .args(arguments)
-            .arg("--run-dir")
-            .arg(self.folder.path().join("run"))
-            .env("ROS_DOMAIN_ID", self.domain.to_string())
-            .env("TRENCH_SHM_PREFIX", self.shared_memory())
-            .env("TRENCH_STATE_DIR", self.folder.path().join("state"))
-            .output()
-            .unwrap();
-        let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-        (output.status, worst_first(&text))
-    }
-
-    fn judge(&self, shape_times: &[f64]) -> RunSummary {
-        let bag = BagReader::open(&self.bag()).unwrap();
-        assert_eq!(bag.damage().len(), 0, "{:?}", bag.damage());
-        let run = Run::from_bag(&bag).unwrap();
-        let options = SummaryOptions { shape_times: shape_times.to_vec(), ..SummaryOptions::default() };
-        let summary = summary(&run, &options);
-        assert!(summary.ground_truth && summary.undecodable == 0);
-        println!("{summary}");
-        summary
-    }
-}
-
-impl Launch {
-    /// The prefix of its shared memory.
-    fn shared_memory(&self) -> String {
-        format!("live{}_{}_", self.domain, std::process::id())
-    }
-}
-
-impl Drop for Launch {
-    fn drop(&mut self) {
-        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory()) {
-            println!("shared memory of the test stays behind: {error}");
-        }
-    }
-}
-
-/// What was said, errors before warnings before the rest: of a failed test often the first lines alone are shown.
-fn worst_first(text: &str) -> String {
-    let rank = |line: &&str| {
-        if ["ERROR", "panicked"].iter().any(|word| line.contains(word)) {
-            0
-        } else {
-            2 - u8::from(line.contains("WARN"))
-        }
-    };
-    let mut lines: Vec<&str> = text.lines().collect();
-    lines.sort_by_key(rank);
-    lines.join("\n")
-}
-
-/// A domain no other test of this run uses at the same time: real-time tests run alone. Domains above 101 would have
-/// their ports among those that the kernel gives to anyone (/proc/sys/net/ipv4/ip_local_port_range).
-fn domain(offset: u32) -> u32 {
-    71 + (std::process::id() % 7) * 4 + offset
-}
+use live_support::{Launch, domain};
+use std::path::Path;
+use std::process::Command;
+use trench_bag::run::RunSummary;
 
 fn no_contact(summary: &RunSummary) {
     assert!(summary.closest.as_ref().unwrap().gap > 0.0, "{summary}");

@@ -6,27 +6,18 @@
 #[expect(dead_code, reason = "the experiments use the rest")]
 mod support;
 
-use support::{Finished, drive, root};
+use support::{Finished, drive, root, starts};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
-use trench_sim::Random;
+
+/// m: what counts as formed.
+const FORMED: f64 = 0.05;
+
+/// s: when the target has reached the end of its way through trap, gaps and moving obstacles.
+const FIELD_ENDS: f64 = 90.5;
 
 fn seeds() -> u64 {
     std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(3)
-}
-
-/// Eight robots anywhere in the left third of the field, bodies 0.12 m apart.
-fn starts(seed: u64) -> String {
-    let mut random = Random::new(seed, 96);
-    let mut poses: Vec<[f64; 3]> = Vec::new();
-    while poses.len() < 8 {
-        let pose = [random.between(0.2, 1.3), random.between(0.2, 2.2), random.between(-3.1, 3.1)];
-        if poses.iter().all(|other| libm::hypot(pose[0] - other[0], pose[1] - other[1]) > 0.28) {
-            poses.push(pose);
-        }
-    }
-    let numbers: Vec<String> = poses.iter().flatten().map(|number| format!("{number:?}")).collect();
-    format!("[{}]", numbers.join(", "))
 }
 
 fn stands_without_contact(finished: &Finished, what: &str) {
@@ -53,6 +44,10 @@ fn eight_robots_pursue_their_target_through_traps_and_gaps() {
     for seed in 1..=seeds() {
         let (poses, seed) = (starts(seed), seed.to_string());
         let finished = drive("pursuit.launch.yaml", &[("poses", &poses), ("seed", &seed)]);
+        let conformed = finished.conformity.finish();
+        let after =
+            |since| conformed.formed_after(since, FORMED).map_or("never".to_owned(), |time| format!("{time:.1} s"));
+        println!("seed {seed}: formed {} after the start, {} after the field", after(0.0), after(FIELD_ENDS));
         stands_without_contact(&finished, &format!("seed {seed}, poses {poses}"));
     }
 }

@@ -4,7 +4,7 @@ use super::say;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use trench_bag::run::{Run, SummaryOptions, summary};
+use trench_bag::run::{Run, StepTable, SummaryOptions, steps, summary};
 use trench_bag::{BagError, BagMessage, BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::Qos;
 
@@ -32,7 +32,8 @@ enum Action {
         /// A bag's folder or an .mcap file.
         bag: PathBuf,
     },
-    /// Judges a run: each robot's final distance to its vertex, shape errors, the nearest that bodies came.
+    /// Judges a run: each robot's final distance to its vertex, shape errors, the nearest that bodies came, how evenly
+    /// controllers stepped.
     Analyze {
         /// A bag's folder or an .mcap file.
         bag: PathBuf,
@@ -84,7 +85,8 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), BagError> {
-    let run = Run::from_bag(&open(path)?)?;
+    let bag = open(path)?;
+    let (run, steps) = (Run::from_bag(&bag)?, steps(&bag)?);
     let mut options = SummaryOptions::default();
     if !at.is_empty() {
         options.shape_times = at.to_vec();
@@ -94,9 +96,11 @@ fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), 
     }
     let summary = summary(&run, &options);
     if json {
-        say(format_args!("{:#}\n", serde_json::json!(summary)));
+        let mut document = serde_json::json!(summary);
+        document["steps"] = serde_json::json!(steps);
+        say(format_args!("{document:#}\n"));
     } else {
-        say(summary);
+        say(format_args!("{summary}{}", StepTable(&steps)));
     }
     Ok(())
 }

@@ -1,5 +1,8 @@
 //! What the experiments share: starts, lock-step runs, verdicts.
 
+pub(crate) mod conformity;
+
+use conformity::Conformity;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use trench_bag::run::{Run, RunBuilder};
@@ -30,9 +33,24 @@ pub(crate) fn random_poses(robots: usize, seed: u64) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
+/// The argument `poses` of the pursuit: eight robots anywhere in the left third of the field, bodies 0.12 m apart.
+pub(crate) fn starts(seed: u64) -> String {
+    let mut random = Random::new(seed, 96);
+    let mut poses: Vec<[f64; 3]> = Vec::new();
+    while poses.len() < 8 {
+        let pose = [random.between(0.2, 1.3), random.between(0.2, 2.2), random.between(-3.1, 3.1)];
+        if poses.iter().all(|other| libm::hypot(pose[0] - other[0], pose[1] - other[1]) > 0.28) {
+            poses.push(pose);
+        }
+    }
+    let numbers: Vec<String> = poses.iter().flatten().map(|number| format!("{number:?}")).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
 /// A finished lock-step run.
 pub(crate) struct Finished {
     pub(crate) run: Run,
+    pub(crate) conformity: Conformity,
     pub(crate) ending: Ending,
     /// Warnings and errors that nodes logged.
     pub(crate) complaints: Vec<String>,
@@ -42,6 +60,7 @@ pub(crate) struct Finished {
 
 struct Watch {
     builder: RunBuilder,
+    conformity: Conformity,
     complaints: Vec<String>,
     digest: u64,
 }
@@ -49,6 +68,7 @@ struct Watch {
 impl Observer for Watch {
     fn published(&mut self, _: Times, topic: &str, advertise: &Advertise, _: Source, cdr: &[u8]) {
         self.builder.take(topic, advertise.type_info.name, cdr);
+        self.conformity.take(topic, cdr);
         for byte in topic.bytes().chain(cdr.iter().copied()) {
             self.digest = (self.digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
@@ -72,7 +92,13 @@ pub(crate) fn drive_file(path: &Path, arguments: &[(&str, &str)]) -> Finished {
         arguments.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let loaded = load(&plan(path, &arguments).unwrap(), &Disk, 1).unwrap();
     let mut lockstep = Lockstep::new(loaded.instances).unwrap();
-    let mut watch = Watch { builder: RunBuilder::default(), complaints: Vec::new(), digest: 0xcbf2_9ce4_8422_2325 };
+    let mut watch = Watch {
+        builder: RunBuilder::default(),
+        conformity: Conformity::default(),
+        complaints: Vec::new(),
+        digest: 0xcbf2_9ce4_8422_2325,
+    };
     let ending = lockstep.run(600.0, &mut watch);
-    Finished { run: watch.builder.finish(), ending, complaints: watch.complaints, digest: watch.digest }
+    let Watch { builder, conformity, complaints, digest } = watch;
+    Finished { run: builder.finish(), conformity, ending, complaints, digest }
 }

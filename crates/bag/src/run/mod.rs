@@ -4,12 +4,14 @@
 mod contact;
 mod csv;
 mod extract;
+mod steps;
 mod summary;
 mod track;
 
 pub use contact::ContactSample;
 pub use csv::CsvError;
 pub use extract::RunBuilder;
+pub use steps::{StepSummary, StepTable, steps};
 pub use summary::{Closest, RobotSummary, RunSummary, ShapeSample, SummaryOptions, summary};
 pub use track::{GoalSample, Pose, Track};
 
