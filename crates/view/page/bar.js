@@ -4,7 +4,7 @@ import { picture } from "./picture.js";
 
 const one = (id) => document.getElementById(id);
 const RATES = [0.25, 0.5, 1, 2, 4, 8, 16];
-const SHOWN = 5;
+const SHOWN = 4;
 const minutes = (seconds) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
 
 export function drawBar() {
@@ -23,9 +23,19 @@ export function drawBar() {
   one("pause").hidden = setup?.mode === "bag";
 }
 
+// What several nodes say in the same words is one alarm: eight of them would hide half of the field.
+function merged(alarms) {
+  const groups = d3.groups(alarms, (alarm) => `${alarm.level}/${alarm.message}`);
+  return groups.map(([, [first, ...others]]) => {
+    const name = others.length > 0 ? `${first.name} and ${others.length} more` : first.name;
+    return { ...first, name, key: `${first.name}/${first.level}` };
+  });
+}
+
 export function drawAlarms() {
-  const hiddenCount = picture.alarms.length - SHOWN;
-  const list = picture.alarms.slice(0, SHOWN).map((alarm) => ({ ...alarm, key: `${alarm.name}/${alarm.level}` }));
+  const alarms = merged(picture.alarms);
+  const hiddenCount = alarms.length - SHOWN;
+  const list = alarms.slice(0, SHOWN);
   if (hiddenCount > 0) list.push({ key: "more", level: "", name: `and ${hiddenCount} more`, message: "" });
   const box = d3.select("#alarms").selectAll(".alarm").data(list, (alarm) => alarm.key).join((enter) => {
     const alarm = enter.append("div").attr("class", "alarm");
