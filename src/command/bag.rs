@@ -2,12 +2,12 @@
 
 use super::say;
 use clap::{Args, Subcommand};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use trench_bag::run::{Run, StepTable, SummaryOptions, steps, summary};
 use trench_bag::{BagError, BagMessage, BagReader, BagWriter, Stamp, WriteOptions};
-use trench_core::Qos;
 
+mod analyze;
 mod check;
 mod info;
 mod node;
@@ -32,22 +32,9 @@ enum Action {
         /// A bag's folder or an .mcap file.
         bag: PathBuf,
     },
-    /// Judges a run: each robot's final distance to its vertex, shape errors, the nearest that bodies came, how evenly
-    /// controllers stepped.
-    Analyze {
-        /// A bag's folder or an .mcap file.
-        bag: PathBuf,
-        /// Prints JSON instead of a table.
-        #[arg(long)]
-        json: bool,
-        /// When to give the shape error, in seconds since the beginning of the run.
-        #[arg(long, value_name = "SECONDS", value_delimiter = ',')]
-        at: Vec<f64>,
-        /// Over which interval to give the largest shape error; by default the last third of the goal points' motion
-        /// and all that follows.
-        #[arg(long, value_names = ["FROM", "TO"], num_args = 2)]
-        interval: Vec<f64>,
-    },
+    /// Judges a run: final errors, time to conform, distances, zones, links, message rates, gaps and latencies; or the
+    /// noise of robots that stand.
+    Analyze(analyze::Analyze),
     /// Replays journals through the node cores and compares every output: the regression test of recorded runs.
     Check(check::Check),
     /// Copies all intact messages of a damaged or unfinished bag into a new one and says what is lost.
@@ -72,9 +59,14 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
         }
         Action::Check(check) => return check.run(),
         Action::Info { bag } => BagReader::open(bag).map(|bag| say(info::Info(&bag))),
-        Action::Analyze { bag, json, at, interval } => analyze(bag, *json, at, interval),
+        Action::Analyze(analyze) => return told(analyze.run()),
         Action::Recover { bag, out } => recover(bag, out),
     };
+    told(done)
+}
+
+/// The exit code, with the error where there is one.
+fn told(done: Result<(), impl Display>) -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -82,27 +74,6 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-fn analyze(path: &Path, json: bool, at: &[f64], interval: &[f64]) -> Result<(), BagError> {
-    let bag = open(path)?;
-    let (run, steps) = (Run::from_bag(&bag)?, steps(&bag)?);
-    let mut options = SummaryOptions::default();
-    if !at.is_empty() {
-        options.shape_times = at.to_vec();
-    }
-    if let &[from, to] = interval {
-        options.interval = Some((from, to));
-    }
-    let summary = summary(&run, &options);
-    if json {
-        let mut document = serde_json::json!(summary);
-        document["steps"] = serde_json::json!(steps);
-        say(format_args!("{document:#}\n"));
-    } else {
-        say(format_args!("{summary}{}", StepTable(&steps)));
-    }
-    Ok(())
 }
 
 fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
@@ -120,7 +91,7 @@ fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
 fn copy(bag: &BagReader, writer: &mut BagWriter) -> Result<(), BagError> {
     let mut ids = Vec::new();
     for topic in bag.topics() {
-        ids.push(writer.add_topic(&topic.name, topic.topic_type(), Qos::RELIABLE)?);
+        ids.push(writer.add_topic(&topic.name, topic.topic_type(), topic.qos())?);
     }
     for message in bag.messages() {
         let message = message?;

@@ -7,6 +7,7 @@ mod figures;
 mod output;
 mod snapshots;
 mod speeds;
+mod stack;
 mod style;
 mod trajectories;
 
@@ -59,6 +60,17 @@ enum PlotError {
     Scenario(#[from] trench_config::ConfigError),
     #[error("{}: node cores run in trench sim; record a bag there (--bag FOLDER) and plot that", .0.display())]
     Launch(PathBuf),
+}
+
+/// Draws diagrams of quantities over one horizontal axis, one below the other, as SVG. The legend names the curves in
+/// the order of their colours.
+pub(super) fn diagrams(
+    names: &[String],
+    notes: &str,
+    horizontal: &str,
+    diagrams: &[stack::Diagram],
+) -> Result<String, String> {
+    stack::draw(names, notes, horizontal, diagrams)
 }
 
 /// The colours of robots in the order of their names, as style sheets write them.

@@ -73,3 +73,55 @@ fn a_configuration_that_the_node_refuses_is_a_difference() {
     let Verdict::Differs(first) = &report.verdict else { panic!("{:?}", report.verdict) };
     assert!(first.subject == "start" && first.pair.now.contains("gains.k1"), "{first}");
 }
+
+/// Journals of a controller whose gain is not the one that its outputs were recorded with.
+fn with_other_gain(folder: &Path) -> std::path::PathBuf {
+    let journal = JournalReader::open(&golden("square").join(CONTROLLER)).unwrap();
+    let path = folder.join(CONTROLLER);
+    rewrite(&journal, &with_more_gain(&journal, "gains.k1"), &path);
+    path
+}
+
+#[test]
+fn tolerances_allow_what_they_name_and_no_more() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_other_gain(folder.path());
+    let file = folder.path().join("tolerances.yaml");
+    let checked = |text: &str| {
+        std::fs::write(&file, text).unwrap();
+        check(&["--tolerances", file.to_str().unwrap()], &path)
+    };
+    let (code, said) = checked("tolerances:\n  /robot1/*: {'*': 10.0}\n");
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("  within tolerance ("), "{said}");
+    let (code, said) = checked("tolerances:\n  /robot1/*: {'*': 1.0e-9}\n");
+    assert_eq!(code, Some(1), "{said}");
+    // Another field of the same message counts as before.
+    let (code, said) = checked("tolerances:\n  /robot1/cmd_vel: {twist.linear.x: 10.0}\n");
+    assert_eq!(code, Some(1), "{said}");
+    assert!(!said.contains("/robot1/cmd_vel: twist.linear.x") || said.contains("twist.angular.z"), "{said}");
+    let (code, said) = checked("tolerances:\n  /robot1/cmd_vel: {twist.linear.x: wide}\n");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("tolerances.yaml:2"), "{said}");
+}
+
+#[test]
+fn a_divergence_is_drawn_on_request() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_other_gain(folder.path());
+    let pictures = folder.path().join("pictures");
+    let (code, said) = check(&["--plot", pictures.to_str().unwrap()], &path);
+    assert_eq!(code, Some(1), "{said}");
+    let names: Vec<_> = super::journals(&pictures)
+        .iter()
+        .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
+        .collect();
+    assert!(names.iter().any(|name| name.contains("robot1.cmd_vel-twist.")), "{names:?}");
+    for name in names {
+        let svg = std::fs::read_to_string(pictures.join(name)).unwrap();
+        assert!(
+            svg.contains("recorded") && svg.contains("difference") && svg.matches("<polyline").count() > 3,
+            "{svg}"
+        );
+    }
+}

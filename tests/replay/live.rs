@@ -18,8 +18,13 @@ const NODES: [&str; 7] = [
     "testbed",
 ];
 
-/// Launches the square for six seconds, with a bag, and gives what it said.
-fn launch(folder: &Path, domain: u32, arguments: &[&str]) -> String {
+/// How many squares are launched and checked: `TRENCH_LIVE_RUNS`, one by default.
+fn runs() -> u32 {
+    std::env::var("TRENCH_LIVE_RUNS").map_or(1, |text| text.parse().unwrap())
+}
+
+/// Launches the square for so many seconds, with a bag, and gives what it said.
+fn launch(folder: &Path, domain: u32, seconds: f64, arguments: &[&str]) -> String {
     let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
     for program in NODES {
         let path = trench.with_file_name(program);
@@ -29,7 +34,8 @@ fn launch(folder: &Path, domain: u32, arguments: &[&str]) -> String {
     let output = Command::new(trench)
         .arg("launch")
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("launch/square.launch.yaml"))
-        .args(["duration:=6.0", "tolerance:=3.0", "record:=true"])
+        .arg(format!("duration:={seconds:?}"))
+        .args(["tolerance:=3.0", "record:=true"])
         .arg(format!("bag:={}", folder.join("bag").display()))
         .arg(format!("port:={}", folder.join("port").display()))
         .arg("--run-dir")
@@ -57,21 +63,24 @@ fn shared_memory(domain: u32) -> String {
 
 #[test]
 fn live_every_node_of_a_square_replays_bit_for_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let launched = launch(folder.path(), 0, &["--journal=images"]);
-    let (code, said) = check(&[], &folder.path().join("bag"));
-    println!("{said}");
-    assert_eq!(code, Some(0), "{said}\n{launched}");
-    assert_eq!(said.matches("  equal\n").count(), 10, "{said}");
+    for run in 1..=runs() {
+        let folder = tempfile::tempdir().unwrap();
+        let launched = launch(folder.path(), 0, 10.0, &["--journal=images", &format!("seed:={run}")]);
+        let (code, said) = check(&[], &folder.path().join("bag"));
+        println!("run {run}\n{said}");
+        assert_eq!(code, Some(0), "run {run}: {said}\n{launched}");
+        assert_eq!(said.matches("  equal\n").count(), 10, "run {run}: {said}");
+    }
+    println!("all {} runs equal", runs());
 }
 
 #[test]
 fn live_without_images_all_but_the_localizer_can_be_checked() {
     let folder = tempfile::tempdir().unwrap();
-    let launched = launch(folder.path(), 1, &["--journal"]);
+    let launched = launch(folder.path(), 1, 6.0, &["--journal"]);
     let (code, said) = check(&[], &folder.path().join("bag"));
     assert_eq!(code, Some(2), "{said}\n{launched}");
-    assert_eq!(said.matches("  equal\n").count(), 9, "{said}");
+    assert_eq!(said.matches("  equal\n").count(), 9, "{said}\n{launched}");
     assert!(said.contains("/overhead/image_raw: images were not journalled"), "{said}");
 }
 

@@ -2,10 +2,11 @@
 //!
 //! A bag is a folder with `metadata.yaml` and `.mcap` files, as `ros2 bag`, Foxglove, `rosbags` and `mcap-ros2-support`
 //! read and write it. [`BagWriter`] and [`BagReader`] work on bytes and know no message type;
-//! [`run`] reads an experiment out of a bag and [`run::summary`] judges it.
+//! [`run`] reads an experiment out of a bag and [`run::summary`] judges it; [`analysis`] judges traffic, links and noise.
 //!
 //! Architecture invariant: nothing here panics on any bytes, and no byte that a checksum contradicts is given out.
 
+pub mod analysis;
 mod error;
 mod metadata;
 pub mod player;
@@ -20,4 +21,4 @@ mod writer;
 pub use error::BagError;
 pub use reader::{BagMessage, BagReader, Damage, Messages, Topic};
 pub use topic_type::TopicType;
-pub use writer::{BagWriter, Stamp, TopicId, WriteOptions};
+pub use writer::{BagWriter, Compression, Stamp, TopicId, WriteOptions};

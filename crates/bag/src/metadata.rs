@@ -15,7 +15,7 @@ pub(crate) struct Document<'a> {
     pub(crate) rosbag2_bagfile_information: &'a Metadata,
 }
 
-/// What a bag of one file says of itself.
+/// What a bag, or one file of it, says of itself.
 #[derive(Serialize)]
 pub(crate) struct Metadata {
     version: u32,
@@ -42,12 +42,26 @@ struct StartingTime {
     nanoseconds_since_epoch: u64,
 }
 
-#[derive(Serialize)]
-struct FileInformation {
+/// One file of a bag and what it holds.
+#[derive(Serialize, Clone)]
+pub(crate) struct FileInformation {
     path: String,
     starting_time: StartingTime,
     duration: Duration,
     message_count: u64,
+}
+
+impl FileInformation {
+    /// Of a file with messages from the first to the last time of `span` (ns).
+    pub(crate) fn new(path: &str, span: Option<(u64, u64)>, message_count: u64) -> Self {
+        let (first, last) = span.unwrap_or_default();
+        Self {
+            path: path.to_owned(),
+            starting_time: StartingTime { nanoseconds_since_epoch: first },
+            duration: Duration { nanoseconds: last.saturating_sub(first) },
+            message_count,
+        }
+    }
 }
 
 /// A topic and how many of its messages the bag holds.
@@ -82,22 +96,20 @@ impl CountedTopic {
 }
 
 impl Metadata {
-    /// Of a bag whose only file is `file_name`, with messages from `first` to `last` (ns).
-    pub(crate) fn new(file_name: &str, topics: &[CountedTopic], first: u64, last: u64) -> Self {
-        let message_count = topics.iter().map(|topic| topic.message_count).sum();
-        let duration = Duration { nanoseconds: last.saturating_sub(first) };
-        let starting_time = StartingTime { nanoseconds_since_epoch: first };
+    /// Of these files, with messages from the first to the last time of `span` (ns).
+    pub(crate) fn new(files: Vec<FileInformation>, topics: &[CountedTopic], span: Option<(u64, u64)>) -> Self {
+        let (first, last) = span.unwrap_or_default();
         Self {
             version: 9,
             storage_identifier: "mcap",
-            duration,
-            starting_time,
-            message_count,
+            duration: Duration { nanoseconds: last.saturating_sub(first) },
+            starting_time: StartingTime { nanoseconds_since_epoch: first },
+            message_count: topics.iter().map(|topic| topic.message_count).sum(),
             topics_with_message_count: topics.to_vec(),
             compression_format: "",
             compression_mode: "",
-            relative_file_paths: vec![file_name.to_owned()],
-            files: vec![FileInformation { path: file_name.to_owned(), starting_time, duration, message_count }],
+            relative_file_paths: files.iter().map(|file| file.path.clone()).collect(),
+            files,
             custom_data: None,
             ros_distro: "kilted",
         }

@@ -50,13 +50,12 @@ impl JournalFile {
     }
 
     fn over(path: PathBuf, file: File, start: &Start, pace: Pace) -> Result<Self, JournalError> {
-        // Images of a noisy camera hardly shrink, and compressing them would cost a processor.
-        let compression = if start.keeps_large { None } else { Some(mcap::Compression::Zstd) };
+        let level = pace.compression_level(start.keeps_large);
         let made = mcap::WriteOptions::new()
             .profile("trench_journal")
             .library(concat!("trench ", env!("CARGO_PKG_VERSION")))
-            .compression(compression)
-            .compression_level(pace.compression_level())
+            .compression(level.map(|_| mcap::Compression::Zstd))
+            .compression_level(level.unwrap_or_default())
             .compression_threads(0)
             // Chunks end where `flush` is called and nowhere else.
             .chunk_size(None)

@@ -31,11 +31,15 @@ pub enum Pace {
 }
 
 impl Pace {
-    /// Of zstd: robots' controllers need the processor, simulations leave files that stay.
-    pub(crate) fn compression_level(self) -> u32 {
-        match self {
-            Self::RealTime => 1,
-            Self::LockStep => 19,
+    /// Of zstd; nothing where it would cost too much. Robots' controllers need the processor, simulations leave files
+    /// that stay.
+    pub(crate) fn compression_level(self, keeps_large: bool) -> Option<u32> {
+        match (self, keeps_large) {
+            (Self::RealTime, false) => Some(1),
+            // Images of a noisy camera hardly shrink, and compressing them would cost a processor.
+            (Self::RealTime, true) => None,
+            (Self::LockStep, false) => Some(19),
+            (Self::LockStep, true) => Some(9),
         }
     }
 }

@@ -1,17 +1,20 @@
 //! `trench bag check`: feeds journals to the cores they are of and compares.
 
 mod find;
+mod plot;
 mod show;
 
 use super::super::say;
 use clap::Args;
 use find::FindError;
+use plot::DivergenceError;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-use trench_harness::replay::{self, ReplayError, Report, Verdict};
+use trench_config::ConfigError;
+use trench_harness::replay::{self, ReplayError, Report, Tolerances, Verdict};
 use trench_journal::JournalReader;
 
 /// The exit code when an output differs.
@@ -23,7 +26,7 @@ const UNREADABLE: u8 = 2;
 #[derive(Args)]
 #[command(after_help = "\
 Exit codes:
-  0   every output of every node is the same, bit for bit
+  0   every output of every node is the same, bit for bit or as near as --tolerances ask for
   1   an output differs: a change of behaviour
   2   a journal cannot be read, or not to its end")]
 pub(super) struct Check {
@@ -38,6 +41,25 @@ pub(super) struct Check {
     /// Writes what differs anew with the outputs of today: after an intended change of behaviour.
     #[arg(long)]
     update: bool,
+    /// By how much fields of messages may differ: a YAML file (docs/bags.md). Without it, not by one bit.
+    #[arg(long, value_name = "FILE")]
+    tolerances: Option<PathBuf>,
+    /// Draws each field that differs, as recorded and as it is now, into pictures in this folder.
+    #[arg(long, value_name = "FOLDER")]
+    plot: Option<PathBuf>,
+}
+
+/// What keeps a check from being made or told.
+#[derive(Debug, thiserror::Error)]
+enum CheckError {
+    #[error(transparent)]
+    Find(#[from] FindError),
+    #[error(transparent)]
+    Tolerances(#[from] ConfigError),
+    #[error("{}: {error}", path.display())]
+    Read { path: PathBuf, error: std::io::Error },
+    #[error(transparent)]
+    Plot(#[from] DivergenceError),
 }
 
 /// A journal and what came of it.
@@ -50,24 +72,32 @@ struct Checked {
 impl Check {
     /// Checks, prints and gives the exit code.
     pub(super) fn run(&self) -> ExitCode {
+        self.try_run().unwrap_or_else(|error| {
+            eprintln!("trench bag check: {error}");
+            UNREADABLE.into()
+        })
+    }
+
+    fn try_run(&self) -> Result<ExitCode, CheckError> {
         let began = Instant::now();
-        let checked = match find::journals(&self.path).and_then(|paths| self.check(paths)) {
-            Ok(checked) => checked,
-            Err(error) => {
-                eprintln!("trench bag check: {error}");
-                return UNREADABLE.into();
-            }
-        };
+        let tolerances = self.tolerances.as_deref().map_or(Ok(Tolerances::default()), read_tolerances)?;
+        let checked = self.check(find::journals(&self.path)?, &tolerances)?;
         if self.json {
             say(format_args!("{:#}\n", show::json(&checked)));
         } else {
             say(show::Table { checked: &checked, took: began.elapsed().as_secs_f64() });
         }
-        checked.iter().map(Checked::exit_code).max().unwrap_or(UNREADABLE).into()
+        if let Some(folder) = &self.plot {
+            for picture in plot::draw(&checked, folder)? {
+                // With --json, standard output is for programs.
+                eprintln!("{}", picture.display());
+            }
+        }
+        Ok(checked.iter().map(Checked::exit_code).max().unwrap_or(UNREADABLE).into())
     }
 
     /// Checks the journals of the nodes asked for, as many at a time as there are processors.
-    fn check(&self, paths: Vec<PathBuf>) -> Result<Vec<Checked>, FindError> {
+    fn check(&self, paths: Vec<PathBuf>, tolerances: &Tolerances) -> Result<Vec<Checked>, FindError> {
         let paths = match &self.node {
             Some(name) => find::of_node(paths, name)?,
             None => paths,
@@ -76,7 +106,7 @@ impl Check {
         let checked = Mutex::new(Vec::new());
         let work = || {
             while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let one = check(path, self.update);
+                let one = check(path, self.update, tolerances);
                 checked.lock().unwrap_or_else(PoisonError::into_inner).push(one);
             }
         };
@@ -88,13 +118,18 @@ impl Check {
     }
 }
 
-fn check(path: &Path, update: bool) -> Checked {
+fn read_tolerances(path: &Path) -> Result<Tolerances, CheckError> {
+    let text = std::fs::read_to_string(path).map_err(|error| CheckError::Read { path: path.to_owned(), error })?;
+    Ok(Tolerances::parse(&path.display().to_string(), &text)?)
+}
+
+fn check(path: &Path, update: bool, tolerances: &Tolerances) -> Checked {
     let path = path.to_owned();
     let journal = match JournalReader::open(&path) {
         Ok(journal) => journal,
         Err(error) => return Checked { path, result: Err(error.into()), is_updated: false },
     };
-    let result = replay::replay(&journal);
+    let result = replay::replay_within(&journal, tolerances);
     let differs = matches!(&result, Ok(Report { verdict: Verdict::Differs(_), .. }));
     if !(differs && update) {
         return Checked { path, result, is_updated: false };

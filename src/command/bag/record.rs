@@ -24,6 +24,12 @@ pub(super) struct Record {
     /// Leaves out topics that a regular expression finds.
     #[arg(short = 'x', long, value_name = "PATTERN")]
     exclude_regex: Option<String>,
+    /// Begins the next file before one is larger than this many bytes.
+    #[arg(short = 'b', long, value_name = "BYTES", default_value_t = 0)]
+    max_bag_size: u64,
+    /// Begins the next file when one spans this many seconds.
+    #[arg(short = 'd', long, value_name = "SECONDS", default_value_t = 0.0)]
+    max_bag_duration: f64,
     /// Robots whose topics are heard before anybody writes them.
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     robots: Vec<String>,
@@ -43,6 +49,8 @@ impl Record {
         node.text("regex", self.regex.as_deref().unwrap_or_default());
         node.texts("exclude_topics", &self.exclude_topics);
         node.text("exclude_regex", self.exclude_regex.as_deref().unwrap_or_default());
+        node.value("max_bag_size", self.max_bag_size);
+        node.value("max_bag_duration", self.max_bag_duration);
         node.run(&self.node_arguments)
     }
 }

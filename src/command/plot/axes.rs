@@ -3,22 +3,29 @@
 use super::style::{Area, FAINT, REFERENCE, UNIT, colour, font, line, text};
 use plotters::prelude::*;
 
-/// A diagram of one quantity over time.
-pub(super) struct TimeAxes {
+/// What [`TimeAxes::horizontal`] says of time.
+pub(super) const TIME: &str = "t (s)";
+/// [`TimeAxes::least_margin`] of distances, speeds and angles, in their units.
+pub(super) const LEAST_MARGIN: f64 = 1e-3;
+
+/// A diagram of one quantity over time, or over another one.
+pub(super) struct TimeAxes<'a> {
     /// What the vertical axis shows, with its unit.
-    pub(super) quantity: &'static str,
+    pub(super) quantity: &'a str,
     /// The times shown, s.
     pub(super) span: (f64, f64),
     /// Whether zero belongs to the vertical axis.
     pub(super) from_zero: bool,
-    /// Whether this is the lowest diagram of a picture, the one that names the time.
-    pub(super) names_time: bool,
+    /// What the horizontal axis shows: the lowest diagram of a picture names it.
+    pub(super) horizontal: Option<&'a str>,
+    /// The least that is shown above and below the values: noise should not look like much.
+    pub(super) least_margin: f64,
 }
 
 /// A curve: the place of its robot in the order of names (nothing for the whole team) and its points.
 pub(super) type Curve = (Option<usize>, Vec<(f64, f64)>);
 
-impl TimeAxes {
+impl TimeAxes<'_> {
     /// Draws the curves, and vertical lines at `marks` (s).
     pub(super) fn draw(&self, area: &Area<'_>, curves: &[Curve], marks: &[f64]) -> Result<(), String> {
         let (low, high) = self.range(curves);
@@ -26,7 +33,7 @@ impl TimeAxes {
             .margin_right(18 * UNIT)
             .margin_left(10 * UNIT)
             .margin_top(8 * UNIT)
-            .x_label_area_size(UNIT * if self.names_time { 42 } else { 22 })
+            .x_label_area_size(UNIT * if self.horizontal.is_some() { 42 } else { 22 })
             .y_label_area_size(62 * UNIT)
             .build_cartesian_2d(self.span.0..self.span.1, low..high)
             .map_err(text)?;
@@ -38,9 +45,10 @@ impl TimeAxes {
             .y_desc(self.quantity)
             .y_labels(6)
             .x_labels(10);
-        mesh.y_label_formatter(&|value| short(*value)).x_label_formatter(&|value| short(*value));
-        if self.names_time {
-            mesh.x_desc("t (s)");
+        let vertical = |value: &f64| of_range(*value, high - low);
+        mesh.y_label_formatter(&vertical).x_label_formatter(&|value| short(*value));
+        if let Some(horizontal) = self.horizontal {
+            mesh.x_desc(horizontal);
         }
         mesh.draw().map_err(text)?;
         for &mark in marks.iter().filter(|&&mark| mark > self.span.0 && mark < self.span.1) {
@@ -63,7 +71,7 @@ impl TimeAxes {
         if self.from_zero {
             (low, high) = (low.min(0.0), high.max(0.0));
         }
-        let margin = ((high - low) * 0.06).max(1e-3);
+        let margin = ((high - low) * 0.06).max(self.least_margin).max(high.abs().max(low.abs()) * 1e-12);
         (if self.from_zero && low == 0.0 { 0.0 } else { low - margin }, high + margin)
     }
 }
@@ -71,6 +79,19 @@ impl TimeAxes {
 /// At most about two thousand points: more than a picture has columns.
 fn thinned(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
     points.iter().copied().step_by(points.len().div_ceil(2000).max(1))
+}
+
+/// A number on an axis of this length: with as many digits as tell its marks apart.
+fn of_range(value: f64, range: f64) -> String {
+    if range >= 0.006 {
+        short(value)
+    } else if value.abs() < range * 1e-3 {
+        "0".to_owned()
+    } else {
+        // Marks are a tenth of the axis apart, or more.
+        let digits = (value.abs() / range).log10().ceil().max(0.0) as usize + 1;
+        format!("{value:.digits$e}")
+    }
 }
 
 /// A number without trailing zeros and without a negative zero.

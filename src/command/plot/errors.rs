@@ -1,6 +1,6 @@
 //! Errors over time: each robot's distance to its goal point, and the shape error of the team.
 
-use super::axes::TimeAxes;
+use super::axes::{LEAST_MARGIN, TIME, TimeAxes};
 use super::style::{LEGEND, Picture, UNIT, legend, picture};
 use trench_bag::run::{Run, Track, distance};
 
@@ -13,11 +13,23 @@ pub(super) fn draw(run: &Run, span: (f64, f64)) -> Picture {
         let marks = run.motion().map_or(Vec::new(), |(first, last)| vec![first, last]);
         let distances: Vec<_> =
             run.robots.values().enumerate().map(|(index, track)| (Some(index), goal_distance(track, span))).collect();
-        let axes = TimeAxes { quantity: "distance to goal point (m)", span, from_zero: true, names_time: false };
+        let axes = TimeAxes {
+            quantity: "distance to goal point (m)",
+            span,
+            from_zero: true,
+            horizontal: None,
+            least_margin: LEAST_MARGIN,
+        };
         axes.draw(&upper, &distances, &marks)?;
         let times = run.times(span.0, span.1);
         let shape = times.into_iter().filter_map(|time| Some((time, run.shape_error(time)?))).collect();
-        let axes = TimeAxes { quantity: "shape error (m)", span, from_zero: true, names_time: true };
+        let axes = TimeAxes {
+            quantity: "shape error (m)",
+            span,
+            from_zero: true,
+            horizontal: Some(TIME),
+            least_margin: LEAST_MARGIN,
+        };
         axes.draw(&lower, &[(None, shape)], &marks)
     })
 }

@@ -1,6 +1,6 @@
 //! Forward speed, turning speed and heading of each robot over time (Figures 4.32 to 4.35).
 
-use super::axes::TimeAxes;
+use super::axes::{LEAST_MARGIN, TIME, TimeAxes};
 use super::style::{LEGEND, Picture, UNIT, legend, picture};
 use trench_bag::run::{Pose, Run};
 
@@ -11,10 +11,11 @@ pub(super) fn draw(run: &Run, span: (f64, f64)) -> Picture {
         legend(&top, run.robots.keys(), "")?;
         let (upper, rest) = diagrams.split_vertically(243 * UNIT);
         let (middle, lower) = rest.split_vertically(243 * UNIT);
-        let axes = |quantity, names_time| TimeAxes { quantity, span, from_zero: true, names_time };
-        axes("forward speed (m/s)", false).draw(&upper, &curves(run, span, |pose| pose.v), &[])?;
-        axes("turning speed (rad/s)", false).draw(&middle, &curves(run, span, |pose| pose.omega), &[])?;
-        axes("heading (rad)", true).draw(&lower, &headings(run, span), &[])
+        let axes =
+            |quantity, horizontal| TimeAxes { quantity, span, from_zero: true, horizontal, least_margin: LEAST_MARGIN };
+        axes("forward speed (m/s)", None).draw(&upper, &curves(run, span, |pose| pose.v), &[])?;
+        axes("turning speed (rad/s)", None).draw(&middle, &curves(run, span, |pose| pose.omega), &[])?;
+        axes("heading (rad)", Some(TIME)).draw(&lower, &headings(run, span), &[])
     })
 }
 

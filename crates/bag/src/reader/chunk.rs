@@ -30,13 +30,15 @@ pub(super) fn decompress(header: &ChunkHeader, compressed: &[u8], limit: u64) ->
     if size > limit {
         return Err(BadChunk::TooLarge);
     }
+    let size = usize::try_from(size).map_err(|_| BadChunk::TooLarge)?;
     let records = match header.compression.as_str() {
-        "zstd" => zstd::stream::Decoder::new(compressed).and_then(|decoder| read(decoder, size)),
+        // At once: a stream would keep a window of its own, as large as the data like to claim.
+        "zstd" => zstd::bulk::decompress(compressed, size),
         "lz4" => lz4::Decoder::new(compressed).and_then(|decoder| read(decoder, size)),
-        _ => read(compressed, size),
+        _ => Ok(compressed.to_vec()),
     };
     let records = records.map_err(|_| BadChunk::Compression)?;
-    if records.len() as u64 != size {
+    if records.len() != size {
         return Err(BadChunk::Compression);
     }
     // Zero says that the writer did not compute it.
@@ -46,9 +48,9 @@ pub(super) fn decompress(header: &ChunkHeader, compressed: &[u8], limit: u64) ->
     Ok(records)
 }
 
-/// Grows with what is really there, not with what the header claims, and stops one byte behind it.
-fn read(source: impl Read, size: u64) -> io::Result<Vec<u8>> {
-    let mut records = Vec::new();
-    source.take(size.saturating_add(1)).read_to_end(&mut records)?;
+/// Reads up to one byte behind `size`, into memory that is made once.
+fn read(source: impl Read, size: usize) -> io::Result<Vec<u8>> {
+    let mut records = Vec::with_capacity(size + 1);
+    source.take(size as u64 + 1).read_to_end(&mut records)?;
     Ok(records)
 }

@@ -20,6 +20,15 @@ pub(super) struct Block {
     /// Smallest and largest log time of its messages, ns.
     pub(super) first: u64,
     pub(super) last: u64,
+    /// What its records take in memory, bytes.
+    pub(super) memory: u64,
+}
+
+impl Block {
+    /// What it takes at most to load it and to keep it with the table of its messages, bytes.
+    pub(super) fn cost(&self) -> u64 {
+        (self.memory + self.memory / 16 * 9).max(self.memory + self.length)
+    }
 }
 
 /// An open file and what a scan has found in it.
@@ -34,9 +43,14 @@ pub(super) struct BagFile {
 }
 
 impl BagFile {
-    /// The most that decompressed records may take.
+    /// The most that the records of one block may take.
     pub(super) fn memory_limit(&self) -> u64 {
         self.length + ALLOWANCE
+    }
+
+    /// The most that blocks which overlap in time may take together.
+    pub(super) fn overlap_limit(&self) -> u64 {
+        2 * self.length + ALLOWANCE
     }
 
     /// The bytes from `offset`, at most `length` of them and no more than the file has.

@@ -70,7 +70,7 @@ pub struct BagReader {
 
 impl BagReader {
     /// Opens a bag's folder, or a single `.mcap` file, and checks every chunk of it. A folder without `metadata.yaml`
-    /// (its recorder was killed) is read by its `.mcap` files in the order of their names.
+    /// (its recorder was killed) is read by its `.mcap` files in the order of their numbers.
     ///
     /// # Errors
     /// When there is no bag at `path`. Damage inside the files is no error: see [`BagReader::damage`].
@@ -130,7 +130,7 @@ impl BagReader {
         self.files.iter().map(|file| (file.path.as_path(), file.length))
     }
 
-    /// All intact messages, file by file, in the order of their log times; of equal times in the order of writing.
+    /// All intact messages of all files in the order of their log times; of equal times in the order of writing.
     #[must_use]
     pub fn messages(&self) -> Messages<&Self> {
         Messages::new(self, 0)
@@ -170,6 +170,14 @@ fn mcap_files(folder: &Path) -> Result<Vec<PathBuf>, BagError> {
             files.push(path);
         }
     }
-    files.sort();
+    files.sort_by_cached_key(|path| written_order(path));
     Ok(files)
+}
+
+/// Files of a split bag in the order in which they were written: number 10 behind number 9.
+fn written_order(path: &Path) -> (String, u64, PathBuf) {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let number = stem.rsplit_once('_').and_then(|(name, number)| Some((name, number.parse().ok()?)));
+    let (name, number) = number.unwrap_or((&stem, 0));
+    (name.to_owned(), number, path.to_owned())
 }

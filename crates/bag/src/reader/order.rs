@@ -1,7 +1,7 @@
 //! Messages in the order of their log times.
 //!
-//! Recorders write chunks nearly in order, but messages may be logged out of order and chunks may overlap. Only
-//! chunks that overlap are held in memory together.
+//! Recorders write chunks nearly in order, but messages may be logged out of order, and chunks, also of different files,
+//! may overlap. Only chunks that overlap are held in memory together.
 
 use super::file::{BagFile, Block};
 use super::record::{self, MessageRecord};
@@ -41,16 +41,98 @@ impl Deref for BagMessage {
 /// An iterator over the messages of a bag, which it borrows or shares.
 pub struct Messages<B> {
     bag: B,
-    /// The number of the file that comes next.
-    next_file: usize,
-    current: Option<FileMessages>,
+    /// The blocks not loaded yet, the earliest last.
+    waiting: Vec<(Place, Block)>,
+    loaded: BinaryHeap<Reverse<Loaded>>,
+    /// What they keep in memory, bytes.
+    loaded_bytes: u64,
+    /// The most that they may.
+    limit: u64,
     /// Messages before this log time are left out, ns.
     from: u64,
 }
 
+/// Numbers of a file and of a block in it: of equal times, what was written first comes first.
+type Place = (usize, usize);
+
+/// A loaded block with its messages, latest first; ordered by its next message, then by its place.
+struct Loaded {
+    next: u64,
+    place: Place,
+    bytes: u64,
+    block: Arc<Vec<u8>>,
+    messages: Vec<Entry>,
+}
+
+/// A message of a loaded block: its time and where its record begins.
+#[derive(Clone, Copy)]
+struct Entry {
+    log_time: u64,
+    at: usize,
+}
+
 impl<B: Borrow<BagReader>> Messages<B> {
+    /// Those of blocks that hold a message logged at `from` (ns) or later.
     pub(super) fn new(bag: B, from: u64) -> Self {
-        Self { bag, next_file: 0, current: None, from }
+        let files = &bag.borrow().files;
+        let mut waiting: Vec<(Place, Block)> = Vec::new();
+        for (number, file) in files.iter().enumerate() {
+            let blocks = file.blocks.iter().enumerate().filter(|(_, block)| block.last >= from);
+            waiting.extend(blocks.map(|(index, block)| ((number, index), *block)));
+        }
+        waiting.sort_by_key(|&(place, block)| Reverse((block.first, place)));
+        let limit = files.iter().map(BagFile::overlap_limit).max().unwrap_or(0);
+        Self { bag, waiting, loaded: BinaryHeap::new(), loaded_bytes: 0, limit, from }
+    }
+
+    /// Loads every block that may hold a message before the next one.
+    fn load_due(&mut self) -> Result<(), BagError> {
+        while let Some(&(place, block)) = self.waiting.last() {
+            if self.loaded.peek().is_some_and(|Reverse(loaded)| loaded.next < block.first) {
+                break;
+            }
+            self.waiting.pop();
+            let Some(file) = self.bag.borrow().files.get(place.0) else { continue };
+            if !self.loaded.is_empty() && self.loaded_bytes.saturating_add(block.cost()) > self.limit {
+                return Err(BagError::Disorder { path: file.path.clone(), limit: self.limit });
+            }
+            let records = file.load(&block).map_err(BagError::io(&file.path))?;
+            let changed = || BagError::Changed { path: file.path.clone(), offset: block.offset };
+            let records = records.ok_or_else(changed)?;
+            let messages = messages_of(file, &records);
+            if let Some(next) = messages.last().map(|message| message.log_time) {
+                let bytes = (records.len() + size_of_val(&*messages)) as u64;
+                self.loaded_bytes += bytes;
+                self.loaded.push(Reverse(Loaded { next, place, bytes, block: Arc::new(records), messages }));
+            }
+        }
+        Ok(())
+    }
+
+    /// The next message, whenever it was logged.
+    fn take(&mut self) -> Option<Result<BagMessage, BagError>> {
+        if let Err(error) = self.load_due() {
+            // What follows an error would have a hole before it.
+            self.waiting.clear();
+            self.loaded.clear();
+            return Some(Err(error));
+        }
+        let Reverse(mut earliest) = self.loaded.pop()?;
+        let entry = earliest.messages.pop()?;
+        let block = Arc::clone(&earliest.block);
+        let file = earliest.place.0;
+        match earliest.messages.last() {
+            Some(following) => {
+                earliest.next = following.log_time;
+                self.loaded.push(Reverse(earliest));
+            }
+            None => self.loaded_bytes = self.loaded_bytes.saturating_sub(earliest.bytes),
+        }
+        let (_, start, end) = record::record_at(&block, entry.at)?;
+        let MessageRecord { channel, sequence, log_time, publish_time, start, end } =
+            record::message(&block, start, end)?;
+        let topic = self.bag.borrow().files.get(file)?.channels.get(&channel).copied()?;
+        Some(Ok(BagMessage { topic, log_time, publish_time, sequence, block, start, end }))
     }
 }
 
@@ -59,109 +141,34 @@ impl<B: Borrow<BagReader>> Iterator for Messages<B> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let files = &self.bag.borrow().files;
-            let current = self.current.as_mut().zip(self.next_file.checked_sub(1).and_then(|last| files.get(last)));
-            match current.and_then(|(current, file)| current.next(file)) {
-                Some(Ok(message)) if message.log_time < self.from => continue,
-                Some(Ok(message)) => return Some(Ok(message)),
-                Some(Err(error)) => {
-                    // What follows an error would have a hole before it.
-                    (self.next_file, self.current) = (files.len(), None);
-                    return Some(Err(error));
-                }
-                None => {}
+            match self.take()? {
+                Ok(message) if message.log_time < self.from => {}
+                other => return Some(other),
             }
-            self.current = Some(FileMessages::new(files.get(self.next_file)?, self.from));
-            self.next_file += 1;
         }
     }
 }
 
-/// The messages of one file.
-struct FileMessages {
-    /// The blocks not loaded yet, the earliest last.
-    waiting: Vec<(usize, Block)>,
-    loaded: BinaryHeap<Reverse<Loaded>>,
-    loaded_bytes: u64,
-}
-
-/// A loaded block with its messages, latest first; ordered by its next message, then by its place in the file.
-struct Loaded {
-    next: u64,
-    place: usize,
-    block: Arc<Vec<u8>>,
-    messages: Vec<MessageRecord>,
-}
-
-impl FileMessages {
-    /// Of those blocks that hold a message logged at `from` or later.
-    fn new(file: &BagFile, from: u64) -> Self {
-        let late_enough = |(_, block): &(usize, Block)| block.last >= from;
-        let mut waiting: Vec<_> = file.blocks.iter().copied().enumerate().filter(late_enough).collect();
-        waiting.sort_by_key(|&(place, block)| Reverse((block.first, place)));
-        Self { waiting, loaded: BinaryHeap::new(), loaded_bytes: 0 }
-    }
-
-    /// Loads every block that may hold a message before the next one.
-    fn load_due(&mut self, file: &BagFile) -> Result<(), BagError> {
-        while let Some(&(place, block)) = self.waiting.last() {
-            if self.loaded.peek().is_some_and(|Reverse(loaded)| loaded.next < block.first) {
-                break;
-            }
-            self.waiting.pop();
-            let records = file.load(&block).map_err(BagError::io(&file.path))?;
-            let changed = || BagError::Changed { path: file.path.clone(), offset: block.offset };
-            let records = records.ok_or_else(changed)?;
-            let messages = messages_of(file, &records);
-            self.loaded_bytes += cost(&records, &messages);
-            let limit = file.memory_limit();
-            if self.loaded_bytes > limit && !self.loaded.is_empty() {
-                return Err(BagError::Disorder { path: file.path.clone(), limit });
-            }
-            if let Some(next) = messages.last().map(|message| message.log_time) {
-                self.loaded.push(Reverse(Loaded { next, place, block: Arc::new(records), messages }));
-            }
-        }
-        Ok(())
-    }
-
-    fn next(&mut self, file: &BagFile) -> Option<Result<BagMessage, BagError>> {
-        if let Err(error) = self.load_due(file) {
-            return Some(Err(error));
-        }
-        let Reverse(mut earliest) = self.loaded.pop()?;
-        let message = earliest.messages.pop()?;
-        let topic = file.channels.get(&message.channel).copied()?;
-        let block = Arc::clone(&earliest.block);
-        if let Some(following) = earliest.messages.last() {
-            earliest.next = following.log_time;
-            self.loaded.push(Reverse(earliest));
-        } else {
-            self.loaded_bytes = self.loaded.iter().map(|Reverse(l)| cost(&l.block, &l.messages)).sum();
-        }
-        let MessageRecord { sequence, log_time, publish_time, start, end, .. } = message;
-        Some(Ok(BagMessage { topic, log_time, publish_time, sequence, block, start, end }))
-    }
-}
-
-/// The messages of known channels in a block, the earliest last.
-fn messages_of(file: &BagFile, records: &[u8]) -> Vec<MessageRecord> {
-    let mut messages = Vec::new();
-    let mut at = 0;
-    while let Some((opcode, start, end)) = record::record_at(records, at) {
-        at = end;
-        if opcode == op::MESSAGE {
-            messages.extend(record::message(records, start, end).filter(|m| file.channels.contains_key(&m.channel)));
-        }
-    }
-    // Reversed before the stable sort: of equal times the first written comes out first.
-    messages.reverse();
-    messages.sort_by_key(|message| Reverse(message.log_time));
+/// The messages of known channels in a block, the earliest last. The table is made to measure: of empty messages it
+/// takes half as much as the block.
+fn messages_of(file: &BagFile, records: &[u8]) -> Vec<Entry> {
+    let known = || {
+        let mut at = 0;
+        std::iter::from_fn(move || {
+            let from = at;
+            let (opcode, start, end) = record::record_at(records, from)?;
+            at = end;
+            Some((from, opcode, start, end))
+        })
+        .filter(|&(_, opcode, ..)| opcode == op::MESSAGE)
+        .filter_map(|(at, _, start, end)| Some((at, record::message(records, start, end)?)))
+        .filter(|(_, message)| file.channels.contains_key(&message.channel))
+    };
+    let mut messages = Vec::with_capacity(known().count());
+    messages.extend(known().map(|(at, message)| Entry { log_time: message.log_time, at }));
+    // Of equal times the first written comes out first. Places make the order total: sorting needs no further memory.
+    messages.sort_unstable_by_key(|entry| Reverse((entry.log_time, entry.at)));
     messages
-}
-
-fn cost(records: &[u8], messages: &[MessageRecord]) -> u64 {
-    (records.len() + size_of_val(messages)) as u64
 }
 
 impl PartialEq for Loaded {

@@ -1,5 +1,6 @@
 //! The framing of MCAP records: an opcode, a length, a body.
 
+use super::scan::LARGEST_DEFINITION;
 use mcap::records::{ChunkHeader, Record, op};
 
 /// Opcode and length in front of every record.
@@ -75,6 +76,9 @@ pub(super) fn chunk_header(body: &[u8], length: u64) -> Option<(ChunkHeader, usi
 
 /// Whether a record outside chunks can be what it says: known, and its body reads as such.
 pub(super) fn is_plausible(opcode: u8, body: &[u8]) -> bool {
+    if matches!(opcode, op::SCHEMA | op::CHANNEL) && body.len() > LARGEST_DEFINITION {
+        return true; // It is refused later.
+    }
     match mcap::parse_record(opcode, body) {
         Ok(Record::MessageIndex(index)) => body.len() == 6 + 16 * index.records.len(),
         Ok(Record::DataEnd(_)) => body.len() == 4,
@@ -85,7 +89,8 @@ pub(super) fn is_plausible(opcode: u8, body: &[u8]) -> bool {
     }
 }
 
-/// Whether records of this kind are skipped without a look at their body, which may be large.
-pub(super) fn is_skipped(opcode: u8) -> bool {
-    opcode == op::ATTACHMENT || opcode >= 0x80
+/// Whether a record is skipped without a look at its body, which may be large.
+pub(super) fn is_skipped(opcode: u8, length: u64) -> bool {
+    let is_long = length > LARGEST_DEFINITION as u64;
+    opcode == op::ATTACHMENT || opcode >= 0x80 || (opcode == op::METADATA && is_long)
 }

@@ -3,22 +3,26 @@
 //! Where the framing breaks, the scan looks for the next chunk by its header and goes on there, so that damage in one
 //! place costs one chunk.
 
-mod channels;
+pub(super) mod channels;
 mod resync;
 
 use super::file::{BagFile, Block};
-use super::record::{self, MAX_CHUNK_HEADER, PREFIX};
+use super::record::{self, MAX_CHUNK_HEADER, MessageRecord, PREFIX};
 use super::{Topic, chunk, summary_section};
 use crate::BagError;
-use channels::Channels;
+use channels::{Channels, Totals};
 use mcap::records::{ChunkHeader, Record, op};
 use std::fs::File;
 use std::io;
 use std::os::unix::fs::FileExt;
 use std::path::Path;
 
-/// Messages outside chunks are gathered into blocks of about this many bytes.
+/// Messages outside chunks are gathered into blocks of no more than this many bytes.
 const LOOSE_BLOCK: u64 = 1 << 20;
+/// The most damage that is listed one by one.
+const MOST_DAMAGE: usize = 1000;
+/// The longest definition of a topic or type that is read, bytes.
+pub(super) const LARGEST_DEFINITION: usize = 1 << 20;
 
 /// A scanned file.
 pub(super) struct Scanned {
@@ -32,11 +36,17 @@ pub(super) fn scan(path: &Path, topics: &mut Vec<Topic>) -> Result<Scanned, BagE
     let length = handle.metadata().map_err(BagError::io(path))?.len();
     let file =
         BagFile { path: path.to_owned(), file: handle, length, channels: Default::default(), blocks: Vec::new() };
-    let summary = summary_section::read(&file).unwrap_or_default();
-    let expected = summary.message_count;
     let mut channels = Channels::new(topics);
-    channels.seed(summary);
-    let mut scan = Scan { file, channels, damage: Vec::new(), loose: Vec::new(), finished: false };
+    let expected = summary_section::read(&file, &mut channels);
+    let mut scan = Scan {
+        file,
+        channels,
+        damage: Vec::new(),
+        untold: 0,
+        loose: Vec::new(),
+        is_loose_open: false,
+        finished: false,
+    };
     let magic_is_good = scan.run().map_err(BagError::io(path))?;
     if !magic_is_good && scan.file.blocks.is_empty() {
         return Err(BagError::NotMcap(path.to_owned()));
@@ -52,8 +62,12 @@ struct Scan<'a> {
     file: BagFile,
     channels: Channels<'a>,
     damage: Vec<String>,
+    /// Damage beyond the most that is listed.
+    untold: u64,
     /// Blocks of messages outside chunks, with the channel and the length of each message.
-    loose: Vec<(Block, Vec<(u16, usize)>)>,
+    loose: Vec<(Block, Vec<(u16, u32)>)>,
+    /// Whether the next message can join the last of these blocks: nothing but small records is in between.
+    is_loose_open: bool,
     finished: bool,
 }
 
@@ -64,7 +78,7 @@ impl Scan<'_> {
         let magic_is_good = magic == mcap::MAGIC;
         let mut at = Some(mcap::MAGIC.len() as u64);
         if !magic_is_good {
-            self.damage.push("does not begin with the magic of an MCAP file".to_owned());
+            self.note("does not begin with the magic of an MCAP file".to_owned());
             at = self.resync(0)?;
         }
         while let Some(offset) = at.filter(|&offset| offset < self.file.length && !self.finished) {
@@ -86,11 +100,14 @@ impl Scan<'_> {
         };
         let body_head = head.get(PREFIX..).unwrap_or_default();
         if let Some((header, skip)) = record::chunk_header(body_head, length) {
-            let block = Block { offset, length: end - offset, is_chunk: true, first: 0, last: 0 };
+            let memory = header.uncompressed_size;
+            let block = Block { offset, length: end - offset, is_chunk: true, first: 0, last: 0, memory };
+            self.is_loose_open = false;
             self.chunk(block, &header, body_offset + skip as u64)?;
             return Ok(Some(end));
         }
-        if record::is_skipped(opcode) {
+        self.is_loose_open &= length < LOOSE_BLOCK;
+        if record::is_skipped(opcode, length) {
             return Ok(Some(end));
         }
         let body = self.file.read(body_offset, length)?;
@@ -98,9 +115,7 @@ impl Scan<'_> {
             return Ok(None);
         }
         match opcode {
-            op::MESSAGE => {
-                self.loose_message(Block { offset, length: end - offset, is_chunk: false, first: 0, last: 0 }, &body)
-            }
+            op::MESSAGE => self.loose_message(offset, end, &body),
             op::DATA_END => self.data_end(offset, &body)?,
             _ => self.definition(opcode, &body),
         }
@@ -112,11 +127,8 @@ impl Scan<'_> {
         let records = match chunk::decompress(header, &compressed, self.file.memory_limit()) {
             Ok(records) => records,
             Err(bad) => {
-                self.damage.push(format!(
-                    "the chunk at byte {} {}: its messages are lost",
-                    block.offset,
-                    bad.describe()
-                ));
+                let (offset, problem) = (block.offset, bad.describe());
+                self.note(format!("the chunk at byte {offset} {problem}: its messages are lost"));
                 return Ok(());
             }
         };
@@ -134,7 +146,7 @@ impl Scan<'_> {
             }
         }
         if at != records.len() {
-            self.damage.push(format!("the chunk at byte {} ends in the middle of a record", block.offset));
+            self.note(format!("the chunk at byte {} ends in the middle of a record", block.offset));
         }
         if let Some((first, last)) = span {
             (block.first, block.last) = (first, last);
@@ -143,22 +155,41 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn loose_message(&mut self, mut record: Block, body: &[u8]) {
-        let Some(message) = record::message(body, 0, body.len()) else { return };
-        (record.first, record.last) = (message.log_time, message.log_time);
-        let counted = (message.channel, message.end - message.start);
+    fn loose_message(&mut self, offset: u64, end: u64, body: &[u8]) {
+        let Some(MessageRecord { channel, log_time, start, end: stop, .. }) = record::message(body, 0, body.len())
+        else {
+            return;
+        };
+        let counted = (channel, u32::try_from(stop - start).unwrap_or(u32::MAX));
         match self.loose.last_mut() {
-            Some((block, messages)) if block.offset + block.length == record.offset && block.length < LOOSE_BLOCK => {
-                block.length += record.length;
-                block.first = block.first.min(record.first);
-                block.last = block.last.max(record.last);
+            Some((block, messages)) if self.is_loose_open && end - block.offset <= LOOSE_BLOCK => {
+                block.length = end - block.offset;
+                block.memory = block.length;
+                block.first = block.first.min(log_time);
+                block.last = block.last.max(log_time);
                 messages.push(counted);
             }
-            _ => self.loose.push((record, vec![counted])),
+            _ => {
+                let length = end - offset;
+                let block = Block { offset, length, is_chunk: false, first: log_time, last: log_time, memory: length };
+                self.loose.push((block, vec![counted]));
+                self.is_loose_open = true;
+            }
+        }
+    }
+
+    /// Lists damage; no more of it than a person would read, and than memory should hold.
+    fn note(&mut self, what: String) {
+        match self.damage.len() < MOST_DAMAGE {
+            true => self.damage.push(what),
+            false => self.untold += 1,
         }
     }
 
     fn definition(&mut self, opcode: u8, body: &[u8]) {
+        if body.len() > LARGEST_DEFINITION {
+            return self.channels.refuse();
+        }
         match mcap::parse_record(opcode, body) {
             Ok(Record::Schema { header, data }) => self.channels.add_schema(header.id, header.name, &data),
             Ok(Record::Channel(channel)) => self.channels.add_channel(channel),
@@ -171,10 +202,10 @@ impl Scan<'_> {
         self.finished = true;
         let expected = body.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes));
         if expected != 0 && self.checksum(offset)? != expected {
-            self.damage.push("the data contradict their checksum".to_owned());
+            self.note("the data contradict their checksum".to_owned());
             let lost: usize = self.loose.drain(..).map(|(_, messages)| messages.len()).sum();
             if lost > 0 {
-                self.damage.push(format!("{lost} messages outside chunks are lost: which of them changed is unknown"));
+                self.note(format!("{lost} messages outside chunks are lost: which of them changed is unknown"));
             }
         }
         Ok(())
@@ -197,12 +228,21 @@ impl Scan<'_> {
 
     fn report_losses(&mut self, expected: Option<u64>) {
         for (block, messages) in std::mem::take(&mut self.loose) {
-            let known = messages.into_iter().filter(|&(channel, length)| self.channels.count(channel, length)).count();
-            if known > 0 {
+            let mut is_known = false;
+            for (channel, length) in messages {
+                is_known |= self.channels.count(channel, length as usize);
+            }
+            if is_known {
                 self.file.blocks.push(block);
             }
         }
-        let (counted, unknown) = self.channels.totals();
+        if self.untold > 0 {
+            self.damage.push(format!("and {} places more are damaged", self.untold));
+        }
+        let Totals { counted, unknown, refused } = self.channels.totals();
+        if refused > 0 {
+            self.damage.push(format!("{refused} definitions of topics or types are larger than can be believed"));
+        }
         if !self.finished {
             self.damage.push(format!(
                 "ends without a summary: its recorder was killed or its end is lost; {counted} messages are intact"

@@ -2,24 +2,16 @@
 
 use super::file::BagFile;
 use super::record;
-use mcap::records::{Channel, Record, op};
-use std::collections::BTreeMap;
+use super::scan::LARGEST_DEFINITION;
+use super::scan::channels::Channels;
+use mcap::records::{Record, op};
 
 /// Footer record and closing magic.
 const FOOTER: u64 = 9 + 20 + 8;
 
-/// What the summary repeats.
-#[derive(Default)]
-pub(super) struct SummarySection {
-    /// Type name and definition by schema id.
-    pub(super) schemas: BTreeMap<u16, (String, String)>,
-    pub(super) channels: Vec<Channel>,
-    /// How many messages the whole file holds.
-    pub(super) message_count: Option<u64>,
-}
-
-/// Reads the summary if the file has an intact one.
-pub(super) fn read(file: &BagFile) -> Option<SummarySection> {
+/// Reads the summary if the file has an intact one: all channels, in case that the chunk that defines them is lost, and
+/// how many messages the whole file holds.
+pub(super) fn read(file: &BagFile, channels: &mut Channels<'_>) -> Option<u64> {
     let footer_offset = file.length.checked_sub(FOOTER)?;
     let tail = file.read(footer_offset, FOOTER).ok()?;
     if tail.get(29..)? != mcap::MAGIC || record::prefix(&tail)? != (op::FOOTER, 20) {
@@ -37,22 +29,38 @@ pub(super) fn read(file: &BagFile) -> Option<SummarySection> {
         return None;
     }
     bytes.truncate(summary_length);
-    Some(parse(&bytes))
+    parse(&bytes, channels)
 }
 
-fn parse(bytes: &[u8]) -> SummarySection {
-    let mut summary = SummarySection::default();
-    let mut at = 0;
-    while let Some((opcode, start, end)) = record::record_at(bytes, at) {
-        match mcap::parse_record(opcode, bytes.get(start..end).unwrap_or_default()) {
-            Ok(Record::Schema { header, data }) => {
-                summary.schemas.insert(header.id, (header.name, String::from_utf8_lossy(&data).into_owned()));
+fn parse(bytes: &[u8], channels: &mut Channels<'_>) -> Option<u64> {
+    // Channels name their schemas, which may stand behind them.
+    for wanted in [op::SCHEMA, op::CHANNEL] {
+        for (opcode, body) in records(bytes).filter(|&(opcode, body)| opcode == wanted && is_believed(body)) {
+            match mcap::parse_record(opcode, body) {
+                Ok(Record::Schema { header, data }) => channels.add_schema(header.id, header.name, &data),
+                Ok(Record::Channel(channel)) => channels.add_channel(channel),
+                _ => {}
             }
-            Ok(Record::Channel(channel)) => summary.channels.push(channel),
-            Ok(Record::Statistics(statistics)) => summary.message_count = Some(statistics.message_count),
-            _ => {}
         }
-        at = end;
     }
-    summary
+    let mut statistics = records(bytes).filter(|&(opcode, body)| opcode == op::STATISTICS && is_believed(body));
+    let (opcode, body) = statistics.next()?;
+    match mcap::parse_record(opcode, body) {
+        Ok(Record::Statistics(statistics)) => Some(statistics.message_count),
+        _ => None,
+    }
+}
+
+fn is_believed(body: &[u8]) -> bool {
+    body.len() <= LARGEST_DEFINITION
+}
+
+/// Opcode and body of each record.
+fn records(bytes: &[u8]) -> impl Iterator<Item = (u8, &[u8])> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let (opcode, start, end) = record::record_at(bytes, at)?;
+        at = end;
+        Some((opcode, bytes.get(start..end)?))
+    })
 }

@@ -7,8 +7,9 @@ mod discovery;
 mod topics;
 
 use crate::selection::{self, Selection};
-use crate::{BagError, BagWriter, Stamp, TopicId, WriteOptions};
+use crate::{BagError, BagWriter, Compression, Stamp, TopicId, WriteOptions};
 use std::path::Path;
+use std::time::Duration;
 use topics::subscription;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::{Discovered, Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink};
@@ -16,6 +17,8 @@ use trench_core::{StartError, Steady, Subscribe, Times};
 
 /// How often the open chunk's age is looked at, s.
 const LOOK: f64 = 0.1;
+/// The largest file to ask for, bytes.
+const MOST: f64 = 1e15;
 /// The exit code when a recording ended early.
 const FAILED: u8 = 1;
 
@@ -43,6 +46,20 @@ fn parameters() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::string_list("robots", &[], "robots whose topics are heard before anybody writes them")
             .read_only(),
         ParameterDescriptor::bool("all", false, "whether images are recorded too").read_only(),
+        ParameterDescriptor::integer(
+            "max_bag_size",
+            0,
+            "the next file begins before one is larger than this, bytes; 0: never",
+        )
+        .range(0.0, MOST)
+        .read_only(),
+        ParameterDescriptor::double(
+            "max_bag_duration",
+            0.0,
+            "the next file begins when one spans this long, s; 0: never",
+        )
+        .range(0.0, 1e9)
+        .read_only(),
     ];
     descriptors.extend(selection::parameters());
     descriptors
@@ -62,7 +79,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     let subscriptions = subscriptions.map_err(|(problem, remedy)| parameters.error("topics", problem, remedy))?;
     let chosen = subscriptions.into_iter().flatten().filter(|subscribe| selection.takes(&subscribe.topic));
     let subscriptions: Vec<_> = chosen.collect();
-    let writer = BagWriter::create(Path::new(output), WriteOptions::default())
+    let writer = BagWriter::create(Path::new(output), options(parameters, &subscriptions)?)
         .map_err(|error| parameters.error("output", error.to_string(), "name a new folder on a disk with space"))?;
     Ok(Box::new(Recorder {
         ids: vec![None; subscriptions.len()],
@@ -73,6 +90,19 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         writer: Some(writer),
         next_look: Steady::default(),
     }))
+}
+
+fn options(parameters: &Parameters, heard: &[Subscribe]) -> Result<WriteOptions, ConfigError> {
+    let bytes = u64::try_from(parameters.i64("max_bag_size")?).unwrap_or(0);
+    let seconds = parameters.f64("max_bag_duration")?;
+    let is_image = |subscribe: &Subscribe| discovery::is_image(subscribe.type_info.name);
+    let has_images = parameters.bool("all")? || heard.iter().any(is_image);
+    Ok(WriteOptions {
+        compression: if has_images { Compression::Off } else { Compression::Zstd },
+        split_bytes: (bytes > 0).then_some(bytes),
+        split_after: (seconds > 0.0).then(|| Duration::from_secs_f64(seconds)),
+        ..WriteOptions::default()
+    })
 }
 
 struct Recorder {

@@ -16,7 +16,18 @@ impl Run {
     /// # Errors
     /// When the bag cannot be read. Messages that cannot are counted in [`Run::undecodable`].
     pub fn from_bag(bag: &BagReader) -> Result<Self, BagError> {
-        let mut builder = RunBuilder::default();
+        Self::built(bag, RunBuilder::default())
+    }
+
+    /// As [`Run::from_bag`] with the poses that the localizer measured, also where the ground truth is known.
+    ///
+    /// # Errors
+    /// As [`Run::from_bag`].
+    pub fn measured(bag: &BagReader) -> Result<Self, BagError> {
+        Self::built(bag, RunBuilder { leaves_out_truth: true, ..RunBuilder::default() })
+    }
+
+    fn built(bag: &BagReader, mut builder: RunBuilder) -> Result<Self, BagError> {
         let roles: Vec<_> = bag.topics().iter().map(|topic| Role::of(&topic.name, &topic.type_name)).collect();
         for message in bag.messages() {
             let message = message?;
@@ -71,6 +82,8 @@ pub struct RunBuilder {
     estimates: BTreeMap<String, Vec<(i64, Pose)>>,
     goals: BTreeMap<String, Vec<(i64, GoalSample)>>,
     contacts: Vec<(i64, ContactSample)>,
+    /// Whether ground truth is passed over.
+    leaves_out_truth: bool,
 }
 
 impl RunBuilder {
@@ -84,6 +97,7 @@ impl RunBuilder {
     /// Nothing where the message cannot be read.
     fn take_as(&mut self, role: &Role, message: &[u8]) -> Option<()> {
         match role {
+            Role::GroundTruth(_) if self.leaves_out_truth => {}
             Role::GroundTruth(robot) => {
                 let odometry = Odometry::decode(message).ok()?;
                 let pose = pose_of(&odometry)?;
@@ -138,7 +152,7 @@ impl RunBuilder {
     /// The run, its times counted from t0.
     #[must_use]
     pub fn finish(self) -> Run {
-        let Self { mut run, truth, estimates, goals, mut contacts } = self;
+        let Self { mut run, truth, estimates, goals, mut contacts, .. } = self;
         run.is_ground_truth = !truth.is_empty();
         let poses = if truth.is_empty() { estimates } else { truth };
         let first = poses.values().filter_map(|poses| poses.iter().map(|(stamp, _)| *stamp).min()).min();

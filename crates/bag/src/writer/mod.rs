@@ -2,14 +2,14 @@
 
 mod chunk_file;
 mod disk;
+mod part;
 
-use crate::metadata::{self, CountedTopic, Document, Metadata};
+use crate::metadata::{self, CountedTopic, FileInformation, Metadata};
 use crate::{BagError, TopicType};
-use chunk_file::ChunkFile;
-use mcap::records::MessageHeader;
-use mcap::write::{Metadata as MetadataRecord, NoSeek};
+use part::Part;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use trench_core::Qos;
@@ -21,14 +21,38 @@ pub struct WriteOptions {
     pub chunk_bytes: u64,
     /// ... or when its first message is this old: what a killed recorder can lose.
     pub flush_after: Duration,
+    /// How chunks are compressed.
+    pub compression: Compression,
     /// Recording stops when the disk has no more than this left, besides what the index needs.
     pub disk_reserve: u64,
+    /// A file ends, and the next begins, before it is larger than this, bytes; a message that is larger has a file of its
+    /// own.
+    pub split_bytes: Option<u64>,
+    /// ... or before it holds messages that were logged so far apart.
+    pub split_after: Option<Duration>,
 }
 
 impl Default for WriteOptions {
     fn default() -> Self {
-        Self { chunk_bytes: 1 << 20, flush_after: Duration::from_millis(500), disk_reserve: 4 << 20 }
+        Self {
+            chunk_bytes: 1 << 20,
+            compression: Compression::Zstd,
+            flush_after: Duration::from_millis(500),
+            disk_reserve: 4 << 20,
+            split_bytes: None,
+            split_after: None,
+        }
     }
+}
+
+/// How chunks are compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Compression {
+    /// With zstd: messages of numbers shrink to a half or less.
+    #[default]
+    Zstd,
+    /// Not at all: for images, 40 MB a second of noise that nothing shrinks to less than a half.
+    Off,
 }
 
 /// Names a topic of one [`BagWriter`].
@@ -46,23 +70,33 @@ pub struct Stamp {
     pub sequence: u32,
 }
 
-/// Writes a bag: a folder with one `.mcap` file and `metadata.yaml`.
+/// Writes a bag: a folder with `.mcap` files, one unless it is split, and `metadata.yaml`.
 ///
 /// Whole chunks reach the file in one write each, so that a killed process leaves a file that ends at a chunk.
 pub struct BagWriter {
     directory: PathBuf,
-    file_name: String,
     options: WriteOptions,
-    mcap: mcap::Writer<NoSeek<ChunkFile>>,
+    /// The file that is written now.
+    part: Part,
+    /// Those before it.
+    finished: Vec<FileInformation>,
+    /// All topics, with the counts of the finished files.
     topics: Vec<CountedTopic>,
-    channels: Vec<u16>,
+    declared: Vec<Declared>,
     ids: BTreeMap<(String, String), TopicId>,
-    /// First and last log time.
+    /// First and last log time of the finished files.
     span: Option<(u64, u64)>,
-    pending_bytes: u64,
     pending_since: Option<Instant>,
-    index_bytes: u64,
     full: Option<(u64, u64)>,
+}
+
+/// A topic, for the files that follow.
+struct Declared {
+    name: String,
+    type_name: String,
+    hash: String,
+    definition: String,
+    qos: Qos,
 }
 
 impl BagWriter {
@@ -75,33 +109,16 @@ impl BagWriter {
             return Err(BagError::Exists(directory.to_owned()));
         }
         fs::create_dir_all(directory).map_err(BagError::io(directory))?;
-        let name = directory.file_name().map_or_else(|| "bag".into(), |name| name.to_string_lossy());
-        let file_name = format!("{name}_0.mcap");
-        let file = ChunkFile::create(&directory.join(&file_name)).map_err(BagError::io(directory))?;
-        let mcap = mcap::WriteOptions::new()
-            .profile("ros2")
-            .library(concat!("trench ", env!("CARGO_PKG_VERSION")))
-            .compression(Some(mcap::Compression::Zstd))
-            // Level 1: the recorder shares its processor with the robots' controllers.
-            .compression_level(1)
-            .compression_threads(0)
-            // Chunks end where `flush` is called and nowhere else.
-            .chunk_size(None)
-            .disable_seeking(true)
-            .create(NoSeek::new(file))
-            .map_err(BagError::mcap(directory))?;
         let mut writer = Self {
             directory: directory.to_owned(),
-            file_name,
             options,
-            mcap,
+            part: Part::create(file_path(directory, 0), options.compression)?,
+            finished: Vec::new(),
             topics: Vec::new(),
-            channels: Vec::new(),
+            declared: Vec::new(),
             ids: BTreeMap::new(),
             span: None,
-            pending_bytes: 0,
             pending_since: None,
-            index_bytes: 4096,
             full: None,
         };
         writer.flush()?;
@@ -118,21 +135,17 @@ impl BagWriter {
         if let Some(&id) = self.ids.get(&key) {
             return Ok(id);
         }
-        let offered = self.yaml(&[crate::qos::OfferedQos::from(qos)])?;
-        let metadata = BTreeMap::from([
-            ("offered_qos_profiles".to_owned(), offered),
-            ("topic_type_hash".to_owned(), topic_type.hash.to_owned()),
-        ]);
-        // An encoding says that there is a definition.
-        let encoding = if topic_type.definition.is_empty() { "" } else { "ros2msg" };
-        let schema = self.mcap.add_schema(topic_type.name, encoding, topic_type.definition.as_bytes());
-        let channel = schema.and_then(|schema| self.mcap.add_channel(schema, name, "cdr", &metadata));
-        self.channels.push(channel.map_err(BagError::mcap(&self.directory))?);
+        self.part.add_topic(name, topic_type, qos)?;
         self.topics.push(CountedTopic::new(name, topic_type, qos));
+        self.declared.push(Declared {
+            name: name.to_owned(),
+            type_name: topic_type.name.to_owned(),
+            hash: topic_type.hash.to_owned(),
+            definition: topic_type.definition.to_owned(),
+            qos,
+        });
         let id = TopicId(self.topics.len() - 1);
         self.ids.insert(key, id);
-        // Schema and channel stand in the chunk and again in the summary; metadata.yaml repeats the rest.
-        self.index_bytes += topic_type.definition.len() as u64 + 4096;
         Ok(id)
     }
 
@@ -143,21 +156,43 @@ impl BagWriter {
     /// [`BagWriter::finish`].
     pub fn write(&mut self, topic: TopicId, stamp: Stamp, cdr: &[u8]) -> Result<(), BagError> {
         self.check_open()?;
-        let (Some(&channel_id), Some(counted)) = (self.channels.get(topic.0), self.topics.get_mut(topic.0)) else {
+        if self.is_split_due(stamp.log_time, cdr.len()) {
+            self.split()?;
+        }
+        if self.part.pending_bytes + cdr.len() as u64 >= self.options.chunk_bytes {
+            self.check_disk(cdr.len() as u64)?;
+        }
+        if !self.part.write(topic, stamp, cdr)? {
             return Ok(()); // An id of another writer: there is nothing it could name here.
-        };
-        let Stamp { log_time, publish_time, sequence } = stamp;
-        let header = MessageHeader { channel_id, sequence, log_time, publish_time };
-        self.mcap.write_to_known_channel(&header, cdr).map_err(BagError::mcap(&self.directory))?;
-        counted.message_count += 1;
-        let (first, last) = self.span.unwrap_or((log_time, log_time));
-        self.span = Some((first.min(log_time), last.max(log_time)));
-        self.pending_bytes += cdr.len() as u64 + 31;
+        }
         let since = *self.pending_since.get_or_insert_with(Instant::now);
-        if self.pending_bytes >= self.options.chunk_bytes || since.elapsed() >= self.options.flush_after {
+        if self.part.pending_bytes >= self.options.chunk_bytes || since.elapsed() >= self.options.flush_after {
             self.flush()?;
         }
         Ok(())
+    }
+
+    /// Whether a message belongs into the next file.
+    fn is_split_due(&self, log_time: u64, length: usize) -> bool {
+        let Some((first, _)) = self.part.span else { return false };
+        let is_long =
+            self.options.split_after.is_some_and(|after| log_time.saturating_sub(first) >= nanoseconds(after));
+        is_long || self.options.split_bytes.is_some_and(|most| self.part.length_with(length) > most)
+    }
+
+    /// Ends the file and begins the next. The system writes it to the disk when it likes: nothing waits here.
+    fn split(&mut self) -> Result<(), BagError> {
+        self.flush()?;
+        let mut next = Part::create(file_path(&self.directory, self.finished.len() + 1), self.options.compression)?;
+        for Declared { name, type_name, hash, definition, qos } in &self.declared {
+            next.add_topic(name, TopicType { name: type_name, hash, definition }, *qos)?;
+        }
+        let part = std::mem::replace(&mut self.part, next);
+        self.finished.push(part.information());
+        part.add_counts(&mut self.topics);
+        self.span = joined(self.span, part.span);
+        part.finish()?;
+        self.flush()
     }
 
     /// Closes the open chunk if its first message is older than [`WriteOptions::flush_after`]. To be called several
@@ -178,11 +213,22 @@ impl BagWriter {
     /// As [`BagWriter::write`].
     pub fn flush(&mut self) -> Result<(), BagError> {
         self.check_open()?;
-        self.mcap.flush().map_err(BagError::mcap(&self.directory))?;
-        self.pending_bytes = 0;
         self.pending_since = None;
-        self.index_bytes += 64 + 18 * self.topics.len() as u64;
-        let needed = self.options.disk_reserve.saturating_add(2 * self.index_bytes);
+        let flushed = self.part.flush();
+        if let Err(BagError::Io { source, .. }) = &flushed
+            && source.kind() == ErrorKind::StorageFull
+        {
+            // Somebody else filled the disk since the last look.
+            self.full = Some((disk::available(&self.directory).unwrap_or(0), self.options.disk_reserve));
+            return self.check_open();
+        }
+        flushed?;
+        self.check_disk(0)
+    }
+
+    /// Whether the disk has room for so many bytes more, the index and the reserve.
+    fn check_disk(&mut self, bytes: u64) -> Result<(), BagError> {
+        let needed = self.options.disk_reserve.saturating_add(2 * self.part.index_bytes).saturating_add(bytes);
         let available = disk::available(&self.directory).map_err(BagError::io(&self.directory))?;
         if available < needed {
             self.full = Some((available, needed));
@@ -198,7 +244,8 @@ impl BagWriter {
     /// How many messages were written so far.
     #[must_use]
     pub fn message_count(&self) -> u64 {
-        self.topics.iter().map(|topic| topic.message_count).sum()
+        let finished: u64 = self.topics.iter().map(|topic| topic.message_count).sum();
+        finished + self.part.message_count()
     }
 
     /// Writes summary and `metadata.yaml`.
@@ -206,23 +253,18 @@ impl BagWriter {
     /// # Errors
     /// When the disk cannot take them: what was flushed before is readable nevertheless.
     pub fn finish(mut self) -> Result<(), BagError> {
-        let (first, last) = self.span.unwrap_or((0, 0));
-        let metadata = Metadata::new(&self.file_name, &self.topics, first, last);
-        let record = MetadataRecord {
-            name: "rosbag2".to_owned(),
-            metadata: BTreeMap::from([("serialized_metadata".to_owned(), self.yaml(&metadata)?)]),
-        };
-        let mcap = self.mcap.write_metadata(&record).and_then(|()| self.mcap.finish());
-        mcap.map_err(BagError::mcap(&self.directory))?;
-        let file = self.mcap.into_inner().into_inner();
-        file.finish().map_err(BagError::io(&self.directory))?;
-        let text = serde_saphyr::to_string(&Document { rosbag2_bagfile_information: &metadata });
-        let text = text.map_err(|error| metadata_error(&self.directory, &error))?;
+        self.finished.push(self.part.information());
+        self.part.add_counts(&mut self.topics);
+        let metadata = Metadata::new(self.finished, &self.topics, joined(self.span, self.part.span));
+        let file = self.part.finish()?;
         let path = self.directory.join(metadata::FILE_NAME);
+        let text = part::document(&path, &metadata)?;
         // Renamed into place: a reader never sees half of it.
         let partial = path.with_extension("yaml.partial");
         fs::write(&partial, text).map_err(BagError::io(&partial))?;
-        fs::rename(&partial, &path).map_err(BagError::io(&path))
+        fs::rename(&partial, &path).map_err(BagError::io(&path))?;
+        // Last: a busy disk can take so long that a launcher loses its patience.
+        file.sync_data().map_err(BagError::io(&self.directory))
     }
 
     fn check_open(&self) -> Result<(), BagError> {
@@ -231,12 +273,19 @@ impl BagWriter {
             None => Ok(()),
         }
     }
-
-    fn yaml(&self, value: &impl serde::Serialize) -> Result<String, BagError> {
-        serde_saphyr::to_string(value).map_err(|error| metadata_error(&self.directory, &error))
-    }
 }
 
-fn metadata_error(directory: &Path, error: &dyn std::fmt::Display) -> BagError {
-    BagError::Metadata { path: directory.join(metadata::FILE_NAME), problem: error.to_string() }
+/// The path of a bag's file by its number.
+fn file_path(directory: &Path, number: usize) -> PathBuf {
+    let name = directory.file_name().map_or_else(|| "bag".into(), |name| name.to_string_lossy());
+    directory.join(format!("{name}_{number}.mcap"))
+}
+
+fn joined(a: Option<(u64, u64)>, b: Option<(u64, u64)>) -> Option<(u64, u64)> {
+    let (Some(a), Some(b)) = (a, b) else { return a.or(b) };
+    Some((a.0.min(b.0), a.1.max(b.1)))
+}
+
+fn nanoseconds(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
 }

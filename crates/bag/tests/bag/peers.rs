@@ -1,10 +1,11 @@
 //! Bags exchanged with programs of others: `rosbags` and `mcap-ros2-support` from PyPI, in the virtual environment that
 //! `scripts/ros-venv` builds (`$TRENCH_VENV`, or `.venv` in the repository).
 
-use crate::common::{Written, finished, float_cdr, mcap_file, read_all};
+use crate::common::{FLOAT, Written, finished, float_cdr, mcap_file, read_all, small_chunks};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use trench_bag::BagReader;
+use trench_bag::{BagReader, BagWriter, Compression, Stamp, WriteOptions};
+use trench_core::Qos;
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -39,6 +40,41 @@ fn rosbags_reads_every_message() {
     }
     let hash = "RIHS01_705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a";
     assert!(lines[1].contains(hash), "{}", lines[1]);
+}
+
+#[test]
+fn rosbags_reads_a_bag_of_several_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("split");
+    let written = crate::split::split(&path, None, Some(std::time::Duration::from_secs(3)));
+    let lines = run("bag_rosbags.py", &[path.to_str().unwrap()]);
+    assert_eq!(lines.len(), written.len());
+    for (line, Written { topic, log_time, cdr, .. }) in lines.iter().zip(&written) {
+        for part in [format!("\"{topic}\""), format!(": {log_time},"), format!("\"{}\"", hex(cdr))] {
+            assert!(line.contains(&part), "{line} lacks {part}");
+        }
+    }
+}
+
+#[test]
+fn both_peers_read_bags_without_compression() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plain");
+    let options = WriteOptions { compression: Compression::Off, ..small_chunks() };
+    let mut writer = BagWriter::create(&path, options).unwrap();
+    let topic = writer.add_topic("/value", FLOAT, Qos::RELIABLE).unwrap();
+    for index in 0..500_u64 {
+        writer.write(topic, Stamp { log_time: index, ..Stamp::default() }, &float_cdr(index as f64)).unwrap();
+    }
+    writer.finish().unwrap();
+    for (program, file) in [("bag_rosbags.py", path.clone()), ("bag_mcap_ros2.py", mcap_file(&path))] {
+        let lines = run(program, &[file.to_str().unwrap()]);
+        assert_eq!(lines.len(), 500);
+        for (index, line) in lines.iter().enumerate() {
+            assert!(line.contains(&hex(&float_cdr(index as f64))), "{line}");
+        }
+    }
+    assert_eq!(read_all(&BagReader::open(&path).unwrap()).unwrap().len(), 500);
 }
 
 #[test]

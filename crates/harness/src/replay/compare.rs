@@ -3,6 +3,7 @@
 use super::difference::{Changes, Difference, Pair};
 use super::report::{Elapsed, Report, Verdict};
 use super::subject::Subjects;
+use super::tolerance::Tolerances;
 use trench_core::{StartError, Times};
 use trench_journal::{Output, Port, Ports, Record, Records, Start};
 
@@ -10,23 +11,27 @@ use trench_journal::{Output, Port, Ports, Record, Records, Start};
 pub(super) struct Comparison {
     node: String,
     subjects: Subjects,
+    tolerances: Tolerances,
     elapsed: Elapsed,
     events: u64,
     outputs: u64,
     equal: u64,
+    tolerated: u64,
     first: Option<Box<Difference>>,
     changes: Changes,
 }
 
 impl Comparison {
-    pub(super) fn new(start: &Start) -> Self {
+    pub(super) fn new(start: &Start, tolerances: &Tolerances) -> Self {
         Self {
             node: start.full_name(),
             subjects: Subjects::new(&start.ports),
+            tolerances: tolerances.clone(),
             elapsed: Elapsed::default(),
             events: 0,
             outputs: 0,
             equal: 0,
+            tolerated: 0,
             first: None,
             changes: Changes::default(),
         }
@@ -74,7 +79,14 @@ impl Comparison {
         self.changes.add(&subject, &pair);
         if self.first.is_none() {
             let (node, seconds, ros) = (self.node.clone(), self.elapsed.seconds(), self.elapsed.times().ros);
-            self.first = Some(Box::new(Difference { node, seconds, ros, subject, pair, equal_before: self.equal }));
+            self.first = Some(Box::new(Difference {
+                node,
+                seconds,
+                ros,
+                subject,
+                pair,
+                equal_before: self.equal + self.tolerated,
+            }));
         }
     }
 
@@ -96,10 +108,10 @@ impl Comparison {
             match (was, is) {
                 (None, None) => return,
                 (was, is) if was == is => self.equal += u64::from(self.first.is_none()),
-                (was, is) => {
-                    let (subject, pair) = self.subjects.compare(was.as_ref(), is.as_ref());
-                    self.note(subject, pair);
-                }
+                (was, is) => match self.subjects.compare(was.as_ref(), is.as_ref(), &self.tolerances) {
+                    Some((subject, pair)) => self.note(subject, pair),
+                    None => self.tolerated += u64::from(self.first.is_none()),
+                },
             }
         }
     }
@@ -124,6 +136,7 @@ impl Comparison {
             events: self.events,
             outputs: self.outputs,
             equal: self.equal,
+            tolerated: self.tolerated,
             seconds: self.elapsed.seconds(),
             verdict,
             changes: self.changes,

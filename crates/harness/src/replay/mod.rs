@@ -6,9 +6,13 @@ mod report;
 mod rerun;
 mod subject;
 mod text;
+mod tolerance;
+mod trace;
 mod update;
 
 pub use difference::{Change, Changes, Difference, Pair};
 pub use report::{ReplayError, Report, Verdict};
-pub use rerun::{replay, replay_from};
+pub use rerun::{replay, replay_from, replay_within};
+pub use tolerance::Tolerances;
+pub use trace::{Sample, Trace, trace};
 pub use update::{move_over, update};

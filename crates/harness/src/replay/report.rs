@@ -49,6 +49,8 @@ pub struct Report {
     pub outputs: u64,
     /// Outputs that were the same, bit for bit, before the first that was not.
     pub equal: u64,
+    /// Outputs before the first that was not, whose differences a tolerance allows.
+    pub tolerated: u64,
     /// From the first event to the last, s.
     pub seconds: f64,
     /// The outcome.
@@ -60,7 +62,7 @@ pub struct Report {
 /// The outcome of a replay.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
-    /// All outputs are the same.
+    /// All outputs are the same, or as near as tolerances ask for.
     Equal,
     /// Not all; the first that is not.
     Differs(Box<Difference>),

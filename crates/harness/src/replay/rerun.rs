@@ -2,6 +2,7 @@
 
 use super::compare::Comparison;
 use super::report::{ReplayError, Report};
+use super::tolerance::Tolerances;
 use crate::catalog;
 use trench_config::ConfigError;
 use trench_core::arguments::Names;
@@ -16,14 +17,26 @@ pub fn replay(journal: &JournalReader) -> Result<Report, ReplayError> {
     replay_from(journal, journal.start())
 }
 
+/// Replays a journal; numbers may differ by as much as `tolerances` allow.
+///
+/// # Errors
+/// As [`replay`].
+pub fn replay_within(journal: &JournalReader, tolerances: &Tolerances) -> Result<Report, ReplayError> {
+    run(journal, journal.start(), tolerances)
+}
+
 /// Replays a journal through a core made from `start` instead of the journal's own beginning: what would have changed
 /// with another gain.
 ///
 /// # Errors
 /// As [`replay`].
 pub fn replay_from(journal: &JournalReader, start: &Start) -> Result<Report, ReplayError> {
+    run(journal, start, &Tolerances::default())
+}
+
+fn run(journal: &JournalReader, start: &Start, tolerances: &Tolerances) -> Result<Report, ReplayError> {
     let description = described(start)?;
-    let mut comparison = Comparison::new(start);
+    let mut comparison = Comparison::new(start, tolerances);
     let core = match make(&description, start) {
         Ok(core) => core,
         Err(error) => return Ok(comparison.refusal(&error)),

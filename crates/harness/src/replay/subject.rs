@@ -2,6 +2,7 @@
 
 use super::difference::Pair;
 use super::text::describe;
+use super::tolerance::Tolerances;
 use std::collections::BTreeMap;
 use trench_journal::{Output, Payload, Port, Ports};
 use trench_msgs::dynamic::{Schema, Value};
@@ -12,28 +13,55 @@ pub(super) struct Subjects {
     schemas: BTreeMap<String, Option<Schema>>,
 }
 
+/// What comes of comparing two messages field by field.
+enum Fields {
+    /// This differs first.
+    Differ(Pair),
+    /// All that differs may.
+    Near,
+    /// They have no fields that are known.
+    Unknown,
+}
+
 impl Subjects {
     pub(super) fn new(ports: &Ports) -> Self {
         Self { ports: ports.clone(), schemas: BTreeMap::new() }
     }
 
-    /// What two outputs, of which at least one exists, are about, and where they differ.
-    pub(super) fn compare(&mut self, recorded: Option<&Output<'_>>, now: Option<&Output<'_>>) -> (String, Pair) {
+    /// What two outputs, of which at least one exists, are about, and where they differ; nothing where the tolerances
+    /// allow all differences.
+    pub(super) fn compare(
+        &mut self,
+        recorded: Option<&Output<'_>>,
+        now: Option<&Output<'_>>,
+        tolerances: &Tolerances,
+    ) -> Option<(String, Pair)> {
         let subject = recorded.or(now).map(|output| self.subject(output)).unwrap_or_default();
         let of_one_subject = now.is_none_or(|now| self.subject(now) == subject);
-        let pair = match (recorded.and_then(cdr), now.and_then(cdr)) {
-            (Some(was), Some(is)) if of_one_subject => self.fields(&subject, was, is),
-            _ => None,
+        let fields = match (recorded.and_then(cdr), now.and_then(cdr)) {
+            (Some(was), Some(is)) if of_one_subject => self.fields(&subject, was, is, tolerances),
+            _ => Fields::Unknown,
         };
-        let whole = || {
-            let text = |output: Option<&Output<'_>>| {
-                let named = output.filter(|_| !of_one_subject).map(|output| self.subject(output) + " ");
-                named.unwrap_or_default() + &output.map_or("nothing".to_owned(), describe)
-            };
-            Pair { path: String::new(), recorded: text(recorded), now: text(now), by: None }
+        let text = |output: Option<&Output<'_>>| {
+            let named = output.filter(|_| !of_one_subject).map(|output| self.subject(output) + " ");
+            named.unwrap_or_default() + &output.map_or("nothing".to_owned(), describe)
         };
-        let pair = pair.unwrap_or_else(whole);
-        (subject, pair)
+        match fields {
+            Fields::Near => None,
+            Fields::Differ(pair) => Some((subject, pair)),
+            Fields::Unknown => {
+                let pair = Pair { path: String::new(), recorded: text(recorded), now: text(now), by: None };
+                Some((subject, pair))
+            }
+        }
+    }
+
+    /// The number at `path` of an output, if it is one of `subject`.
+    pub(super) fn value(&mut self, output: &Output<'_>, subject: &str, path: &str) -> Option<f64> {
+        if self.subject(output) != subject {
+            return None;
+        }
+        self.schema(subject)?.decode(cdr(output)?).ok()?.get(path)?.as_f64()
     }
 
     fn subject(&self, output: &Output<'_>) -> String {
@@ -56,20 +84,33 @@ impl Subjects {
         }
     }
 
-    /// The first field in which two messages of a topic or service differ.
-    fn fields(&mut self, subject: &str, recorded: &[u8], now: &[u8]) -> Option<Pair> {
+    fn schema(&mut self, subject: &str) -> Option<&Schema> {
         let type_name = self.type_of(subject)?;
         let parse = || {
             let info = trench_msgs::type_named(&type_name)?;
             Schema::parse(info.name, info.definition).ok()
         };
-        let schema = self.schemas.entry(type_name.clone()).or_insert_with(parse).as_ref()?;
-        let (recorded, now) = (schema.decode(recorded).ok()?, schema.decode(now).ok()?);
+        self.schemas.entry(type_name.clone()).or_insert_with(parse).as_ref()
+    }
+
+    /// The first field in which two messages of a topic or service differ by more than they may.
+    fn fields(&mut self, subject: &str, recorded: &[u8], now: &[u8], tolerances: &Tolerances) -> Fields {
+        let decoded =
+            self.schema(subject).and_then(|schema| Some((schema.decode(recorded).ok()?, schema.decode(now).ok()?)));
+        let Some((recorded, now)) = decoded else { return Fields::Unknown };
         let (recorded, now) = (recorded.leaves(), now.leaves());
-        let same = |(was, is): &(&(String, &Value), &(String, &Value))| was.0 == is.0 && bits(was.1) == bits(is.1);
-        let at = recorded.iter().zip(&now).take_while(same).count();
+        let is_same = |(was, is): &(&(String, &Value), &(String, &Value))| was.0 == is.0 && bits(was.1) == bits(is.1);
+        let is_near = |(was, is): &(&(String, &Value), &(String, &Value))| {
+            let numbers = was.1.as_f64().zip(is.1.as_f64()).filter(|_| was.0 == is.0);
+            numbers.is_some_and(|(before, after)| tolerances.allow(subject, &was.0, before, after))
+        };
+        let pairs = || recorded.iter().zip(&now);
+        let at = pairs().take_while(|pair| is_same(pair) || is_near(pair)).count();
         let (was, is) = (recorded.get(at), now.get(at));
-        let path = was.or(is)?.0.clone();
+        let Some(path) = was.or(is).map(|leaf| leaf.0.clone()) else {
+            // Bytes that differ in no field (bytes behind the message) are no matter of tolerance.
+            return if pairs().all(|pair| is_same(&pair)) { Fields::Unknown } else { Fields::Near };
+        };
         let text = |leaf: Option<&(String, &Value)>| match leaf {
             Some((other, value)) if *other != path => format!("{other} = {value}"),
             Some((_, value)) => value.to_string(),
@@ -77,7 +118,7 @@ impl Subjects {
         };
         let number = |leaf: Option<&(String, &Value)>| leaf.filter(|leaf| leaf.0 == path)?.1.as_f64();
         let by = number(was).zip(number(is)).map(|(was, is)| (was - is).abs());
-        Some(Pair { recorded: text(was), now: text(is), path, by })
+        Fields::Differ(Pair { recorded: text(was), now: text(is), path, by })
     }
 
     fn type_of(&self, subject: &str) -> Option<String> {

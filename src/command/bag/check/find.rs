@@ -21,7 +21,7 @@ pub(super) fn journals(path: &Path) -> Result<Vec<PathBuf>, FindError> {
     }
     let inside = path.join("journals");
     let beside = path.parent().unwrap_or(Path::new("")).join("journals");
-    let is_bag = path.join("metadata.yaml").exists();
+    let is_bag = is_bag(path);
     let folder = match () {
         () if inside.is_dir() => inside,
         () if is_bag && beside.is_dir() => beside,
@@ -33,6 +33,12 @@ pub(super) fn journals(path: &Path) -> Result<Vec<PathBuf>, FindError> {
         return Err(FindError::None(path.to_owned()));
     }
     Ok(found)
+}
+
+/// Whether this is a bag's folder, also one that its recorder could not finish.
+fn is_bag(path: &Path) -> bool {
+    let first = path.file_name().map(|name| format!("{}_0.mcap", name.to_string_lossy()));
+    path.join("metadata.yaml").exists() || first.is_some_and(|first| path.join(first).exists())
 }
 
 fn mcap_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {

@@ -40,6 +40,7 @@ fn name(checked: &Checked) -> String {
 
 fn verdict(checked: &Checked, report: &Report) -> String {
     match &report.verdict {
+        Verdict::Equal if report.tolerated > 0 => format!("within tolerance ({} outputs differ)", report.tolerated),
         Verdict::Equal => "equal".to_owned(),
         Verdict::Differs(_) if checked.is_updated => "differed, written anew".to_owned(),
         Verdict::Differs(_) => "differs".to_owned(),
@@ -82,6 +83,7 @@ fn json_of(checked: &Checked) -> Value {
         "events": report.events,
         "outputs": report.outputs,
         "equal": report.equal,
+        "tolerated": report.tolerated,
         "seconds": report.seconds,
         "changes": changes.collect::<Value>(),
         "updated": checked.is_updated,

@@ -1,56 +1,93 @@
 //! Which topic a channel is, and how many messages it has.
 
 use crate::reader::Topic;
-use crate::reader::summary_section::SummarySection;
 use mcap::records::Channel;
 use std::collections::BTreeMap;
 
+/// The most that all definitions of a file may take in memory, bytes: a few compressed bytes can claim thousands of
+/// topics with a large type each.
+const MOST: usize = 16 << 20;
+/// What a topic takes besides its texts, bytes.
+const OVERHEAD: usize = 256;
+
 /// The channels of one file, growing while it is scanned.
-pub(super) struct Channels<'a> {
+pub(in crate::reader) struct Channels<'a> {
     topics: &'a mut Vec<Topic>,
     schemas: BTreeMap<u16, (String, String)>,
     channels: BTreeMap<u16, usize>,
-    counted: u64,
-    unknown: u64,
+    /// What the definitions take so far, bytes.
+    kept: usize,
+    totals: Totals,
+}
+
+/// What was counted in one file.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::reader) struct Totals {
+    /// Messages of known channels.
+    pub(in crate::reader) counted: u64,
+    /// Messages of unknown ones.
+    pub(in crate::reader) unknown: u64,
+    /// Definitions that are too large.
+    pub(in crate::reader) refused: u64,
 }
 
 impl<'a> Channels<'a> {
     pub(super) fn new(topics: &'a mut Vec<Topic>) -> Self {
-        Self { topics, schemas: BTreeMap::new(), channels: BTreeMap::new(), counted: 0, unknown: 0 }
+        Self { topics, schemas: BTreeMap::new(), channels: BTreeMap::new(), kept: 0, totals: Totals::default() }
     }
 
-    /// Learns all channels from the summary, in case that the chunk that defines them is lost.
-    pub(super) fn seed(&mut self, summary: SummarySection) {
-        self.schemas = summary.schemas;
-        for channel in summary.channels {
-            self.add_channel(channel);
+    /// Counts a definition that is too large.
+    pub(super) fn refuse(&mut self) {
+        self.totals.refused += 1;
+    }
+
+    /// Whether there is room for a definition of so many bytes.
+    fn make_room(&mut self, bytes: usize) -> bool {
+        let kept = self.kept.saturating_add(bytes + OVERHEAD);
+        let is_room = kept <= MOST;
+        if is_room {
+            self.kept = kept;
+        } else {
+            self.refuse();
         }
+        is_room
     }
 
-    pub(super) fn add_schema(&mut self, id: u16, name: String, definition: &[u8]) {
-        self.schemas.entry(id).or_insert_with(|| (name, String::from_utf8_lossy(definition).into_owned()));
+    /// Adds a type. The first definition of an id holds.
+    pub(in crate::reader) fn add_schema(&mut self, id: u16, name: String, definition: &[u8]) {
+        if self.schemas.contains_key(&id) {
+            return;
+        }
+        // Bytes that are no text take three times as many as text.
+        let definition = String::from_utf8_lossy(definition).into_owned();
+        if self.make_room(name.len() + definition.len()) {
+            self.schemas.insert(id, (name, definition));
+        }
     }
 
     /// Adds a channel. The first definition of an id holds.
-    pub(super) fn add_channel(&mut self, mut channel: Channel) {
+    pub(in crate::reader) fn add_channel(&mut self, mut channel: Channel) {
         if self.channels.contains_key(&channel.id) {
             return;
         }
-        let (type_name, definition) = self.schemas.get(&channel.schema_id).cloned().unwrap_or_default();
-        let known = self.topics.iter().position(|topic| topic.name == channel.topic && topic.type_name == type_name);
-        let index = known.unwrap_or_else(|| {
-            self.topics.push(Topic {
-                name: channel.topic,
-                type_name,
-                type_hash: channel.metadata.remove("topic_type_hash").unwrap_or_default(),
-                definition,
-                offered_qos: channel.metadata.remove("offered_qos_profiles").unwrap_or_default(),
-                message_count: 0,
-                largest: 0,
-            });
-            self.topics.len() - 1
-        });
-        self.channels.insert(channel.id, index);
+        let nothing = (String::new(), String::new());
+        let (type_name, definition) = self.schemas.get(&channel.schema_id).unwrap_or(&nothing);
+        let known = self.topics.iter().position(|topic| topic.name == channel.topic && topic.type_name == *type_name);
+        if let Some(index) = known {
+            self.channels.insert(channel.id, index);
+            return;
+        }
+        let (type_name, definition) = (type_name.clone(), definition.clone());
+        let type_hash = channel.metadata.remove("topic_type_hash").unwrap_or_default();
+        let offered_qos = channel.metadata.remove("offered_qos_profiles").unwrap_or_default();
+        let name = channel.topic;
+        if !self
+            .make_room([&name, &type_name, &definition, &type_hash, &offered_qos].map(|text| text.len()).iter().sum())
+        {
+            return;
+        }
+        self.topics.push(Topic { name, type_name, type_hash, definition, offered_qos, message_count: 0, largest: 0 });
+        self.channels.insert(channel.id, self.topics.len() - 1);
     }
 
     /// Counts a message of `length` bytes. Whether its channel is known.
@@ -59,19 +96,18 @@ impl<'a> Channels<'a> {
             Some(topic) => {
                 topic.message_count += 1;
                 topic.largest = topic.largest.max(length);
-                self.counted += 1;
+                self.totals.counted += 1;
                 true
             }
             None => {
-                self.unknown += 1;
+                self.totals.unknown += 1;
                 false
             }
         }
     }
 
-    /// Messages of known and of unknown channels.
-    pub(super) fn totals(&self) -> (u64, u64) {
-        (self.counted, self.unknown)
+    pub(super) fn totals(&self) -> Totals {
+        self.totals
     }
 
     pub(super) fn finish(self) -> BTreeMap<u16, usize> {

@@ -13,7 +13,8 @@ impl Scan<'_> {
     pub(super) fn resync(&mut self, from: u64) -> io::Result<Option<u64>> {
         let found = self.find_chunk(from)?;
         let end = found.unwrap_or(self.file.length);
-        self.damage.push(format!("bytes {} to {end} are no intact records", from.saturating_sub(1)));
+        self.is_loose_open = false;
+        self.note(format!("bytes {} to {end} are no intact records", from.saturating_sub(1)));
         Ok(found)
     }
 
