@@ -5,6 +5,7 @@ mod check;
 mod launch;
 mod plot;
 mod rounded;
+mod router;
 mod sim;
 mod view;
 
@@ -21,6 +22,7 @@ pub(crate) enum Command {
     Check(check::Arguments),
     Launch(launch::Arguments),
     Plot(plot::Arguments),
+    Router(router::Arguments),
     Sim(sim::Arguments),
     View(view::Arguments),
 }
@@ -33,6 +35,7 @@ impl Command {
             Self::Check(arguments) => check::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
+            Self::Router(arguments) => router::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::View(arguments) => view::run(&arguments),
         }

@@ -73,6 +73,7 @@ const IMPURE: &[&str] = &[
     "tokio",
     "trench_bag",
     "trench_runtime",
+    "zenoh",
 ];
 
 struct Package {

@@ -17,6 +17,9 @@ fn parameters() -> Vec<ParameterDescriptor> {
     vec![
         ParameterDescriptor::string("role", "probe", "source or probe").read_only(),
         ParameterDescriptor::bool("shared_memory", true, "whether the source uses it").read_only(),
+        ParameterDescriptor::integer("bytes", 12, "length of a message: a stamp and zeros")
+            .range(12.0, 1.0e7)
+            .read_only(),
         ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e5).read_only(),
         ParameterDescriptor::integer("count", 2000, "messages to measure").range(100.0, 1.0e7).read_only(),
     ]
@@ -24,8 +27,9 @@ fn parameters() -> Vec<ParameterDescriptor> {
 
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let topic = "/stamps".to_owned();
+    let bytes = parameters.usize("bytes")?;
     let local =
-        if parameters.bool("shared_memory")? { Local::SharedMemory { max_len: 16 } } else { Local::NetworkOnly };
+        if parameters.bool("shared_memory")? { Local::SharedMemory { max_len: bytes } } else { Local::NetworkOnly };
     let mut interface = Interface::default();
     let source = parameters.str("role")? == "source";
     if source {
@@ -35,18 +39,38 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     }
     let period = 1.0 / parameters.f64("rate")?;
     let next = source.then_some(Steady(0));
-    Ok(Box::new(Latency { interface, period, next, count: parameters.usize("count")?, nanoseconds: Vec::new() }))
+    Ok(Box::new(Latency {
+        interface,
+        period,
+        next,
+        message: vec![0; bytes],
+        count: parameters.usize("count")?,
+        nanoseconds: Vec::new(),
+    }))
 }
 
 struct Latency {
     interface: Interface,
     period: f64,
     next: Option<Steady>,
+    message: Vec<u8>,
     count: usize,
     nanoseconds: Vec<u64>,
 }
 
 impl Latency {
+    /// A CDR message that begins with the time: what else is in it matters to nobody.
+    fn say(&mut self, at: Times, sink: &mut dyn Sink) {
+        let stamp = at.steady.0.to_le_bytes();
+        let message = &mut self.message;
+        message[..4].copy_from_slice(&[0, 1, 0, 0]);
+        message[4..12].copy_from_slice(&stamp);
+        sink.publish_with(0, message.len(), &mut |loan| {
+            loan.copy_from_slice(message);
+            message.len()
+        });
+    }
+
     fn measure(&mut self, at: Times, cdr: &[u8], sink: &mut dyn Sink) {
         let Ok(stamp) = UInt64::decode(cdr) else { return };
         self.nanoseconds.push(at.steady.0.saturating_sub(stamp.data));
@@ -67,7 +91,7 @@ impl NodeCore for Latency {
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
             Event::Wakeup => {
-                sink.publish(0, &UInt64 { data: at.steady.0 });
+                self.say(at, sink);
                 self.next = Some(at.steady.plus_seconds(self.period));
             }
             Event::Message { cdr, .. } => self.measure(at, cdr, sink),

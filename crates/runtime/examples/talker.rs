@@ -21,6 +21,9 @@ fn parameters() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::double("rate", 1.0, "messages a second").range(0.1, 1.0e5),
         ParameterDescriptor::integer("count", 0, "messages to send before the node ends; 0: for ever")
             .range(0.0, 1.0e9),
+        ParameterDescriptor::integer("pause_after", 0, "messages to send before the node falls silent; 0: never")
+            .range(0.0, 1.0e9)
+            .read_only(),
         ParameterDescriptor::bool("latched", false, "late joiners get the last message").read_only(),
         ParameterDescriptor::integer("padding", 0, "bytes to add to each message").range(0.0, 1.0e7).read_only(),
         ParameterDescriptor::string("local", "shared_memory", LOCAL).read_only(),
@@ -48,6 +51,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         padding: " ".repeat(padding),
         period: 1.0 / parameters.f64("rate")?,
         limit: parameters.usize("count")?,
+        pause_after: parameters.usize("pause_after")?,
         sent: 0,
         next: None,
     }))
@@ -58,6 +62,7 @@ struct Talker {
     padding: String,
     period: f64,
     limit: usize,
+    pause_after: usize,
     sent: usize,
     next: Option<Steady>,
 }
@@ -73,6 +78,9 @@ impl Talker {
         self.next = Some(if late > 1.0 { at.steady } else { due }.plus_seconds(self.period));
         if self.sent == self.limit {
             sink.exit(0);
+        }
+        if self.sent == self.pause_after {
+            self.next = None;
         }
     }
 }

@@ -18,6 +18,7 @@ mod log;
 mod node;
 mod parameters;
 mod process;
+mod reference;
 mod run;
 mod signals;
 mod stream;
@@ -27,4 +28,4 @@ mod transport;
 
 pub use exit::Exit;
 pub use run::{run, run_with_arguments, run_without_journal};
-pub use transport::{TransportError, forget_shared_memory};
+pub use transport::{RouterError, TransportError, forget_shared_memory, route};

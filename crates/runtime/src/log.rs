@@ -1,6 +1,6 @@
 //! Log lines: to the console as every ROS 2 node writes them, and to /rosout.
 
-use crate::transport::dds::NetworkWriter;
+use crate::transport::network::NetworkWriter;
 use std::io::Write;
 use trench_core::{Level, RosTime};
 use trench_msgs::Encode;
@@ -11,7 +11,7 @@ pub(crate) struct Logger {
     name: String,
     lowest: Level,
     console: bool,
-    rosout: Option<NetworkWriter>,
+    rosout: Option<Box<dyn NetworkWriter>>,
 }
 
 impl Logger {
@@ -21,7 +21,7 @@ impl Logger {
     }
 
     /// Sends lines to /rosout too.
-    pub(crate) fn attach(&mut self, rosout: NetworkWriter) {
+    pub(crate) fn attach(&mut self, rosout: Box<dyn NetworkWriter>) {
         self.rosout = Some(rosout);
     }
 
@@ -48,7 +48,7 @@ impl Logger {
 
     /// Sends what waits; true when nothing waits any longer.
     pub(crate) fn flush(&mut self) -> bool {
-        self.rosout.as_mut().is_none_or(NetworkWriter::flush)
+        self.rosout.as_mut().is_none_or(|rosout| rosout.flush())
     }
 }
 

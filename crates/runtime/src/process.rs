@@ -5,10 +5,9 @@ use crate::node::{Node, Wake};
 use crate::signals::Signals;
 use crate::timer::Timer;
 use crate::topics::Topics;
-use crate::transport::TransportError;
-use crate::transport::dds::{GraphChange, Participant, StatusReader, TopicName};
+use crate::transport::network::{GraphChange, GraphWatch, Network};
 use crate::transport::shared_memory::Host;
-use rustdds::mio1::event::Source;
+use crate::transport::{Backend, TransportError};
 use rustdds::mio1::{Events, Interest, Poll, Token};
 use std::io;
 use std::time::{Duration, Instant};
@@ -32,26 +31,25 @@ pub(crate) struct Process {
     timer: Timer,
     /// Kept: the loop waits for it.
     _signals: Signals,
-    status: StatusReader,
+    status: Box<dyn GraphWatch>,
     /// What each token means.
     wakes: Vec<Option<Wake>>,
     topics: Topics,
     pub(crate) nodes: Vec<Node>,
     /// Lives as long as the endpoints of the nodes.
-    pub(crate) participant: Participant,
+    pub(crate) network: Box<dyn Network>,
     host: Host,
 }
 
 impl Process {
     /// Joins the network; nodes are added afterwards.
-    pub(crate) fn new(domain: u16) -> Result<Self, TransportError> {
+    pub(crate) fn new(backend: Backend, domain: u16) -> Result<Self, TransportError> {
         let system = |what| move |source| TransportError::System { what, source };
-        let participant = Participant::join(domain)?;
+        let (network, mut status) = backend.join(domain)?;
         let host = Host::join(domain)?;
         let poll = Poll::new().map_err(system("cannot make an event loop"))?;
         let timer = Timer::new().map_err(system("cannot make a timer"))?;
         let mut signals = Signals::new().map_err(system("cannot listen to signals"))?;
-        let mut status = participant.status();
         timer.register(poll.registry(), TIMER).map_err(system("cannot wait for a timer"))?;
         signals.register(poll.registry(), SIGNALS).map_err(system("cannot wait for signals"))?;
         status.register(poll.registry(), STATUS, Interest::READABLE).map_err(system("cannot wait for the network"))?;
@@ -63,7 +61,7 @@ impl Process {
             wakes: vec![None; OWN_TOKENS],
             topics: Topics::default(),
             nodes: Vec::new(),
-            participant,
+            network,
             host,
         })
     }
@@ -71,7 +69,7 @@ impl Process {
     /// The pieces a node is connected to.
     pub(crate) fn connections(&mut self) -> crate::node::Connections<'_> {
         crate::node::Connections {
-            participant: &mut self.participant,
+            network: self.network.as_mut(),
             host: &self.host,
             registry: self.poll.registry(),
             topics: &mut self.topics,
@@ -129,10 +127,8 @@ impl Process {
             for node in &mut self.nodes {
                 node.graph_changed(&change);
             }
-            if let GraphChange::Writer { topic, type_name, type_hash, qos } = &change
-                && let Some((topic, type_name)) = TopicName::ros_message(topic, type_name)
-            {
-                self.discover(Discovered { topic: &topic, type_name: &type_name, type_hash, qos: *qos });
+            if let GraphChange::Writer { topic, type_name, type_hash, qos } = &change {
+                self.discover(Discovered { topic, type_name, type_hash, qos: *qos });
             }
         }
     }
@@ -148,7 +144,7 @@ impl Process {
             }
         }
         self.nodes = nodes;
-        if is_new && let Err(error) = self.participant.announce() {
+        if is_new && let Err(error) = self.network.announce() {
             self.nodes.iter_mut().for_each(|node| node.warn(&error.to_string()));
         }
     }

@@ -9,14 +9,15 @@ use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
 use crate::parameters::ParameterServer;
 use crate::process::Process;
-use crate::transport::TransportError;
-use crate::transport::dds::full_name;
+use crate::transport::{Backend, TransportError, full_name};
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::process::ExitCode;
 use std::{env, io};
 use trench_config::params::USE_SIM_TIME;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_core::arguments::{Arguments, Names, PUBLISH_OVER_NETWORK, UsageError, process_parameters};
+use trench_core::arguments::{
+    Arguments, CLOCK_REFERENCE, Names, PUBLISH_OVER_NETWORK, SERVE_CLOCK, UsageError, process_parameters,
+};
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription};
 use trench_journal::{BuildError, Disk, Journals};
 
@@ -97,6 +98,11 @@ fn try_run(
         return Ok(0);
     }
     let domain = domain(env::var("ROS_DOMAIN_ID").ok())?;
+    let backend = Backend::of(env::var("RMW_IMPLEMENTATION").ok().as_deref()).map_err(UsageError::RmwImplementation)?;
+    // Whoever asks for secrecy must not be heard by everyone.
+    if env::var("ROS_SECURITY_ENABLE").is_ok_and(|enable| enable == "true") {
+        return Err(UsageError::Security.into());
+    }
     // All cores first: what is wrong with one of them ends the process before it works.
     let mut prepared = Vec::new();
     let nodes = arguments.of_each_node(description.name);
@@ -106,13 +112,13 @@ fn try_run(
     if prepared.len() > 1 {
         raise_file_limit();
     }
-    let mut process = Process::new(domain)?;
+    let mut process = Process::new(backend, domain)?;
     for Prepared { core, names, equipment } in prepared {
         let index = process.nodes.len();
         let node = connect(core, index, &names, equipment, &mut process.connections())?;
         process.nodes.push(node);
     }
-    process.participant.announce()?;
+    process.network.announce()?;
     Ok(process.run()?)
 }
 
@@ -138,12 +144,20 @@ fn prepare<'a>(
     let checkpoint = Checkpoint::of(&full, domain);
     let core = build(description, &names, &checkpoint, &parameters, journals)?;
     let use_sim_time = parameters.bool(USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
+    let reference = parameters.str(CLOCK_REFERENCE).map_err(|error| RunError::Config(vec![error]))?.to_owned();
+    if use_sim_time && !reference.is_empty() {
+        let problem = "contradicts use_sim_time: ROS time is either /clock or another host's";
+        return Err(RunError::Config(vec![parameters.error(CLOCK_REFERENCE, problem, "leave one of them out")]));
+    }
+    let serve_clock = parameters.bool(SERVE_CLOCK).map_err(|error| RunError::Config(vec![error]))?;
     let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
     let publish_over_network = over_network.to_vec();
     let name = logger_name(&full);
     let level = arguments.level_of(&name);
     let equipment = Equipment {
-        clock: Clock::new(use_sim_time),
+        clock: Clock::new(use_sim_time, !reference.is_empty()),
+        clock_reference: Some(reference).filter(|name| !name.is_empty()),
+        serve_clock,
         logger: Logger::new(name, level, arguments.console),
         rosout: arguments.rosout,
         checkpoint,

@@ -5,7 +5,7 @@
 
 use crate::node::{Connections, Node, Subscription};
 use crate::transport::TransportError;
-use crate::transport::dds::GraphChange;
+use crate::transport::network::GraphChange;
 use crate::transport::shared_memory::Host;
 use rustdds::mio1::Registry;
 use trench_core::{Event, RosTime, Steady, Subscribe};
@@ -127,7 +127,7 @@ impl Topics {
     pub(crate) fn graph_changed(&mut self, change: &GraphChange, nodes: &mut [Node]) {
         match change {
             GraphChange::Matched { reader, writers } => {
-                let index = self.all.iter().position(|topic| topic.subscription.network.guid() == *reader);
+                let index = self.all.iter().position(|topic| topic.subscription.network.gid() == *reader);
                 let Some(index) = index else { return };
                 self.debug(index, nodes, &format!("{writers} writer(s)"));
                 for listener in &self.all[index].listeners {
@@ -137,11 +137,11 @@ impl Topics {
                 }
             }
             GraphChange::Writer { topic, type_name, .. } => self.look_at_writer(topic, type_name, nodes),
-            GraphChange::Incompatible { local, remote } => {
-                let index = self.all.iter().position(|topic| topic.subscription.network.guid() == *local);
+            GraphChange::Incompatible { reader, writer } => {
+                let index = self.all.iter().position(|topic| topic.subscription.network.gid() == *reader);
                 if let Some(index) = index {
                     self.warn(index, nodes, |topic| {
-                        format!("{topic}: the quality of service of writer {remote:?} does not suffice")
+                        format!("{topic}: the quality of service of writer {writer:02x?} does not suffice")
                     });
                 }
             }
@@ -152,11 +152,11 @@ impl Topics {
     fn look_at_writer(&mut self, topic: &str, type_name: &str, nodes: &mut [Node]) {
         for index in 0..self.all.len() {
             let subscription = &mut self.all[index].subscription;
-            if subscription.network_name().topic() != topic {
+            if subscription.topic() != topic {
                 continue;
             }
             subscription.look_for_writer();
-            let own = subscription.network_name().type_name().to_owned();
+            let own = subscription.type_name();
             if own != type_name {
                 self.warn(index, nodes, |topic| {
                     format!(
@@ -193,7 +193,7 @@ impl Connections<'_> {
         shared: bool,
     ) -> Result<(), TransportError> {
         if shared && let Some(open) = self.topics.join(&topic, subscribe, listener) {
-            self.participant.share_reader(node, open.network.guid());
+            self.network.share_reader(node, open.network.gid());
             return Ok(());
         }
         let subscription = self.open(node, topic, subscribe)?;

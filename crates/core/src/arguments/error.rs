@@ -24,4 +24,14 @@ pub enum UsageError {
     /// ROS_DOMAIN_ID is not a domain.
     #[error("ROS_DOMAIN_ID is `{0}`; write a whole number from 0 to 232")]
     Domain(String),
+    /// Security is asked for, which there is none of.
+    #[error(
+        "ROS_SECURITY_ENABLE is true, but DDS Security is not supported: unset it, or use Zenoh with TLS (docs/nodes/runtime.md)"
+    )]
+    Security,
+    /// RMW_IMPLEMENTATION names none that is known.
+    #[error(
+        "RMW_IMPLEMENTATION is `{0}`; write rmw_zenoh_cpp for Zenoh, rmw_fastrtps_cpp or rmw_cyclonedds_cpp (or nothing) for DDS"
+    )]
+    RmwImplementation(String),
 }

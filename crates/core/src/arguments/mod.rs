@@ -6,7 +6,7 @@ mod parameters;
 mod remap;
 
 pub use error::UsageError;
-pub use parameters::{PUBLISH_OVER_NETWORK, process_parameters};
+pub use parameters::{CLOCK_REFERENCE, PUBLISH_OVER_NETWORK, SERVE_CLOCK, process_parameters};
 pub use remap::{NameKind, Names, Remap};
 
 use crate::Level;

@@ -7,14 +7,25 @@ use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 /// Names topics meant for this host that the process also sends over the network.
 pub const PUBLISH_OVER_NETWORK: &str = "publish_over_network";
 
+/// Names the node of another host whose clock is ROS time.
+pub const CLOCK_REFERENCE: &str = "clock_reference";
+
+/// Whether the node tells its time to those that go by it.
+pub const SERVE_CLOCK: &str = "serve_clock";
+
 /// The parameters that every process has besides its node's own.
 #[must_use]
-pub fn process_parameters() -> [ParameterDescriptor; 2] {
+pub fn process_parameters() -> [ParameterDescriptor; 4] {
+    let reference =
+        "full name of the node, on another host, whose clock is ROS time here, as measured; empty: this host's";
+    let serve = "whether nodes of other hosts may go by this node's clock: the service ~/exchange_time";
     let clock = "whether /clock is this node's time";
     let network = "topics meant for this host (images) that also go over the network, for viewers; [\"*\"] means all";
     [
         ParameterDescriptor::bool(params::USE_SIM_TIME, false, clock).read_only(),
         ParameterDescriptor::string_list(PUBLISH_OVER_NETWORK, &[], network).read_only(),
+        ParameterDescriptor::string(CLOCK_REFERENCE, "", reference).read_only(),
+        ParameterDescriptor::bool(SERVE_CLOCK, false, serve).read_only(),
     ]
 }
 

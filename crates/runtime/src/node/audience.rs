@@ -1,9 +1,7 @@
 //! Who reads a topic, and whether all of them do so through shared memory.
 
+use crate::transport::network::Gid;
 use std::collections::BTreeSet;
-
-/// A reader's or writer's identity on the network.
-type Gid = [u8; 16];
 
 /// The readers of one topic. Whoever reads shared memory says there who he is on the network.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! A service that the node calls.
 
-use crate::transport::dds::ServiceClient;
+use crate::transport::network::ServiceClient;
 use rustdds::bytes::Bytes;
 use std::collections::VecDeque;
 use trench_core::Steady;
@@ -10,7 +10,7 @@ const PATIENCE_SECONDS: f64 = 5.0;
 
 /// The calls under way.
 pub(crate) struct Caller {
-    pub(crate) service: ServiceClient,
+    pub(crate) service: Box<dyn ServiceClient>,
     calls: VecDeque<Call>,
 }
 
@@ -23,7 +23,7 @@ struct Call {
 }
 
 impl Caller {
-    pub(crate) fn new(service: ServiceClient) -> Self {
+    pub(crate) fn new(service: Box<dyn ServiceClient>) -> Self {
         Self { service, calls: VecDeque::new() }
     }
 

@@ -1,6 +1,7 @@
 //! Opening all that a core's interface names.
 
 use super::parameters::NodeParameters;
+use super::reference::{self, ClockReference};
 use super::subscription::Reading;
 use super::{Caller, Node, NodeWake, Ports, Publication, Subscription, Wake};
 use crate::checkpoint::Checkpoint;
@@ -9,9 +10,9 @@ use crate::log::Logger;
 use crate::parameters::ParameterServer;
 use crate::stream::Stream;
 use crate::topics::{Heard, Listener, Topics};
-use crate::transport::TransportError;
-use crate::transport::dds::{Participant, TopicName, full_name};
+use crate::transport::network::{Network, TopicName};
 use crate::transport::shared_memory::{Host, SharedWriter};
+use crate::transport::{TransportError, full_name};
 use rustdds::mio1::{Interest, Registry, Token, event};
 use std::collections::BTreeMap;
 use trench_core::arguments::{NameKind, Names};
@@ -22,7 +23,7 @@ use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
 
 /// What nodes are connected to, and what wakes the loop for them.
 pub(crate) struct Connections<'a> {
-    pub(crate) participant: &'a mut Participant,
+    pub(crate) network: &'a mut dyn Network,
     pub(crate) host: &'a Host,
     pub(crate) registry: &'a Registry,
     /// What the process reads.
@@ -51,16 +52,16 @@ impl Connections<'_> {
         topic: String,
         subscribe: &Subscribe,
     ) -> Result<Subscription, TransportError> {
-        let network_name = TopicName::message(&topic, subscribe.type_info.name);
         let shared_name = self.host.topic(&topic, subscribe.type_info.name);
-        let mut network = self.participant.reader(node, &network_name, subscribe.qos)?;
+        let name = TopicName::new(topic, subscribe.type_info);
+        let mut network = self.network.reader(node, &name, subscribe.qos)?;
         let wake = Wake::Topic(self.topics.next());
         let mut local_token = None;
         if subscribe.wakes {
-            self.register(wake, &mut network)?;
+            self.register(wake, network.as_mut())?;
             local_token = Some(self.token(wake));
         }
-        Ok(Subscription::new(Reading { topic, network_name, shared_name, qos: subscribe.qos }, network, local_token))
+        Ok(Subscription::new(Reading { name, shared_name, qos: subscribe.qos }, network, local_token))
     }
 }
 
@@ -72,6 +73,10 @@ pub(crate) struct Equipment {
     pub(crate) checkpoint: Checkpoint,
     /// Topics that also go over the network although they are meant for this host; `*` means all.
     pub(crate) publish_over_network: Vec<String>,
+    /// The node whose clock is ROS time, if it is not this host's.
+    pub(crate) clock_reference: Option<String>,
+    /// Whether the node tells its time to others.
+    pub(crate) serve_clock: bool,
     pub(crate) parameters: ParameterServer,
 }
 
@@ -84,11 +89,16 @@ pub(crate) fn connect(
     to: &mut Connections<'_>,
 ) -> Result<Node, TransportError> {
     let node = full_name(&names.namespace, &names.node);
-    to.participant.add_node(&names.namespace, &names.node)?;
+    to.network.add_node(&names.namespace, &names.node)?;
     if equipment.rosout {
-        let name = TopicName::message("/rosout", Log::TYPE.name);
-        equipment.logger.attach(to.participant.writer(&node, &name, ROSOUT)?);
+        let name = TopicName::new("/rosout", Log::TYPE);
+        equipment.logger.attach(to.network.writer(&node, &name, ROSOUT)?);
     }
+    let reference = match &equipment.clock_reference {
+        Some(of) => Some(ClockReference::open(of, &node, index, to)?),
+        None => None,
+    };
+    let time_server = if equipment.serve_clock { Some(reference::server(&node, index, to)?) } else { None };
     let interface = core.interface().clone();
     if matches!(equipment.clock, Clock::Simulated(_)) {
         let subscribe = Subscribe::to::<ClockMessage>("/clock", Qos::SENSOR);
@@ -106,15 +116,15 @@ pub(crate) fn connect(
     let mut servers = Vec::new();
     for (service, serve) in interface.services.iter().enumerate() {
         let name = names.resolve(&serve.name, NameKind::Service);
-        let mut server = to.participant.server(&node, &name, serve.service.name)?;
-        to.register(Wake::Node(index, NodeWake::Requests(service)), &mut server.requests)?;
+        let mut server = to.network.server(&node, &name, serve.service)?;
+        to.register(Wake::Node(index, NodeWake::Requests(service)), server.as_mut())?;
         servers.push(server);
     }
     let mut callers = Vec::new();
     for (client, call) in interface.clients.iter().enumerate() {
         let name = names.resolve(&call.name, NameKind::Service);
-        let mut service = to.participant.client(&node, &name, call.service.name)?;
-        to.register(Wake::Node(index, NodeWake::Responses(client)), &mut service.responses)?;
+        let mut service = to.network.client(&node, &name, call.service)?;
+        to.register(Wake::Node(index, NodeWake::Responses(client)), service.as_mut())?;
         callers.push(Caller::new(service));
     }
     let streams = interface.byte_streams.iter().enumerate();
@@ -139,7 +149,8 @@ pub(crate) fn connect(
         broken: Vec::new(),
         exit: None,
     };
-    Ok(Node { full_name: node, subscribed: interface.subscriptions.len(), core, parameters, ports })
+    let subscribed = interface.subscriptions.len();
+    Ok(Node { full_name: node, subscribed, core, reference, time_server, parameters, ports })
 }
 
 /// Late joiners get the last lines; as many as rclcpp keeps.
@@ -167,8 +178,8 @@ fn publication(
             (local, max_len, to_network)
         }
     };
-    let name = TopicName::message(&topic, type_name);
-    let mut publication = Publication::new(topic, advertise.qos, to.participant.writer(node, &name, advertise.qos)?);
+    let name = TopicName::new(topic.as_str(), advertise.type_info);
+    let mut publication = Publication::new(topic, advertise.qos, to.network.writer(node, &name, advertise.qos)?);
     if let Some(local) = local {
         publication.share(local, max_len, to_network);
     }

@@ -1,6 +1,6 @@
 //! Bringing what arrived to the core.
 
-use super::{Node, NodeWake, Publication};
+use super::{ClockReference, Node, NodeWake, Publication};
 use std::time::Instant;
 use trench_core::{Event, Level, RosTime, Sink, Steady};
 
@@ -28,6 +28,8 @@ impl Node {
         match wake {
             NodeWake::Requests(service) => self.take_requests(service),
             NodeWake::Responses(client) => self.take_responses(client),
+            NodeWake::ClockAnswers => self.take_clock_answers(),
+            NodeWake::ClockQuestions => self.take_clock_questions(),
             NodeWake::Stream(stream) => self.take_bytes(stream),
             NodeWake::Parameters(service) => self.take_parameter_requests(service),
         }
@@ -43,6 +45,7 @@ impl Node {
                 self.handle(Event::Response { client, cdr: None });
             }
         }
+        self.ask_clock(now);
         self.open_streams(now);
     }
 
@@ -55,7 +58,8 @@ impl Node {
     pub(crate) fn next_tick(&self) -> Option<Steady> {
         let expiries = self.ports.callers.iter().filter_map(|caller| caller.next_deadline());
         let retries = self.ports.streams.iter().filter_map(|stream| stream.next_retry());
-        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).min()
+        let question = self.reference.as_ref().map(ClockReference::next);
+        self.core.next_wakeup().into_iter().chain(expiries).chain(retries).chain(question).min()
     }
 
     /// The code that the core asked to end with, if it did.
@@ -65,7 +69,7 @@ impl Node {
 
     /// Sends what waits for room on the network; true when nothing waits any longer.
     pub(crate) fn flush(&mut self) -> bool {
-        self.parameters.flush() & self.ports.flush()
+        self.flush_clock() & self.parameters.flush() & self.ports.flush()
     }
 
     /// Gives last words time to leave, at most until `deadline`.
@@ -79,7 +83,7 @@ impl Node {
     }
 
     fn take_requests(&mut self, service: usize) {
-        self.ports.servers[service].requests.clear_wakeup();
+        self.ports.servers[service].clear_wakeup();
         while let Some(taken) = self.ports.servers[service].take() {
             match taken {
                 Ok((request, cdr)) => {
@@ -92,7 +96,7 @@ impl Node {
     }
 
     fn take_responses(&mut self, client: usize) {
-        self.ports.callers[client].service.responses.clear_wakeup();
+        self.ports.callers[client].service.clear_wakeup();
         while let Some(taken) = self.ports.callers[client].take() {
             match taken {
                 Ok(cdr) => self.handle(Event::Response { client, cdr: Some(&cdr) }),

@@ -1,6 +1,6 @@
 //! What a writer of a latched topic said before this reader came.
 
-use crate::transport::dds::NetworkSample;
+use crate::transport::network::NetworkSample;
 use std::collections::VecDeque;
 use trench_core::Steady;
 

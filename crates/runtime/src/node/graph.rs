@@ -3,7 +3,7 @@
 use super::{Connections, Node};
 use crate::topics::{Heard, Listener};
 use crate::transport::TransportError;
-use crate::transport::dds::GraphChange;
+use crate::transport::network::GraphChange;
 use trench_core::Discovered;
 
 impl Node {
@@ -11,13 +11,20 @@ impl Node {
     pub(crate) fn graph_changed(&mut self, change: &GraphChange) {
         match change {
             GraphChange::Matched { reader, writers } => {
-                self.ports.callers.iter_mut().for_each(|caller| caller.service.writers_changed(*reader, *writers));
+                self.ports.callers.iter_mut().for_each(|caller| caller.service.writers_changed(reader, *writers));
+                if let Some(clock) = &mut self.reference {
+                    clock.writers_changed(reader, *writers);
+                }
             }
             GraphChange::Readers { writer, readers } => {
-                self.ports.callers.iter_mut().for_each(|caller| caller.service.readers_changed(*writer, readers));
+                self.ports.callers.iter_mut().for_each(|caller| caller.service.readers_changed(writer, readers));
                 let servers = self.ports.servers.iter_mut().chain(self.parameters.services());
-                servers.for_each(|server| server.readers_changed(*writer, readers));
-                self.ports.publications.iter_mut().for_each(|topic| topic.readers_changed(*writer, readers));
+                let servers = servers.chain(&mut self.time_server);
+                servers.for_each(|server| server.readers_changed(writer, readers));
+                if let Some(clock) = &mut self.reference {
+                    clock.readers_changed(writer, readers);
+                }
+                self.ports.publications.iter_mut().for_each(|topic| topic.readers_changed(writer, readers));
             }
             GraphChange::Writer { .. } | GraphChange::Incompatible { .. } => {}
         }

@@ -10,6 +10,7 @@ mod held;
 mod parameters;
 mod ports;
 mod publication;
+mod reference;
 mod streams;
 mod subscription;
 
@@ -19,7 +20,9 @@ pub(crate) use ports::Ports;
 pub(crate) use publication::Publication;
 pub(crate) use subscription::Subscription;
 
+use crate::transport::network::ServiceServer;
 use parameters::NodeParameters;
+use reference::ClockReference;
 use trench_core::NodeCore;
 
 /// A running node.
@@ -28,6 +31,10 @@ pub(crate) struct Node {
     /// How many topics its core reads.
     subscribed: usize,
     core: Box<dyn NodeCore>,
+    /// The clock that this node goes by, where it is not its own host's.
+    reference: Option<ClockReference>,
+    /// Tells its time to nodes of other hosts.
+    time_server: Option<Box<dyn ServiceServer>>,
     parameters: NodeParameters,
     ports: Ports,
 }
@@ -50,6 +57,10 @@ pub(crate) enum NodeWake {
     Responses(usize),
     /// A byte stream.
     Stream(usize),
+    /// Answers of the clock that the node goes by.
+    ClockAnswers,
+    /// Questions of nodes that go by this one's.
+    ClockQuestions,
     /// One of the parameter services.
     Parameters(usize),
 }

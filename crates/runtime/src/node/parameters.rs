@@ -4,7 +4,7 @@ use super::connect::Connections;
 use super::{Node, NodeWake, Wake};
 use crate::parameters::{ParameterServer, ParameterService};
 use crate::transport::TransportError;
-use crate::transport::dds::{NetworkWriter, PendingRequest, ServiceServer, TopicName};
+use crate::transport::network::{NetworkWriter, PendingRequest, ServiceServer, TopicName};
 use rustdds::bytes::Bytes;
 use trench_core::{Durability, Level, Qos, Reliability, Sink};
 use trench_msgs::rcl_interfaces::ParameterEvent;
@@ -17,8 +17,8 @@ const EVENTS: Qos = Qos { reliability: Reliability::Reliable, durability: Durabi
 pub(super) struct NodeParameters {
     server: ParameterServer,
     /// In the order of [`ParameterService::ALL`].
-    services: Vec<ServiceServer>,
-    events: NetworkWriter,
+    services: Vec<Box<dyn ServiceServer>>,
+    events: Box<dyn NetworkWriter>,
 }
 
 impl NodeParameters {
@@ -31,16 +31,16 @@ impl NodeParameters {
         let mut services = Vec::new();
         for (number, service) in ParameterService::ALL.into_iter().enumerate() {
             let name = format!("{node}/{}", service.name());
-            let mut opened = to.participant.server(node, &name, service.type_name())?;
-            to.register(Wake::Node(index, NodeWake::Parameters(number)), &mut opened.requests)?;
+            let mut opened = to.network.server(node, &name, service.info())?;
+            to.register(Wake::Node(index, NodeWake::Parameters(number)), opened.as_mut())?;
             services.push(opened);
         }
-        let name = TopicName::message("/parameter_events", ParameterEvent::TYPE.name);
-        let events = to.participant.writer(node, &name, EVENTS)?;
+        let name = TopicName::new("/parameter_events", ParameterEvent::TYPE);
+        let events = to.network.writer(node, &name, EVENTS)?;
         Ok(Self { server, services, events })
     }
 
-    pub(super) fn services(&mut self) -> &mut [ServiceServer] {
+    pub(super) fn services(&mut self) -> &mut [Box<dyn ServiceServer>] {
         &mut self.services
     }
 
@@ -66,7 +66,7 @@ impl Node {
     }
 
     pub(super) fn take_parameter_requests(&mut self, number: usize) {
-        self.parameters.services[number].requests.clear_wakeup();
+        self.parameters.services[number].clear_wakeup();
         while let Some(taken) = self.parameters.services[number].take() {
             match taken {
                 Ok((request, cdr)) => self.answer_parameters(number, request, &cdr),

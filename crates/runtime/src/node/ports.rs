@@ -6,7 +6,7 @@ use crate::checkpoint::Checkpoint;
 use crate::clock::Clock;
 use crate::log::Logger;
 use crate::stream::Stream;
-use crate::transport::dds::{PendingRequest, ServiceServer};
+use crate::transport::network::{PendingRequest, ServiceServer};
 use rustdds::mio1::Registry;
 use std::collections::BTreeMap;
 use std::io;
@@ -19,7 +19,7 @@ pub(crate) struct Ports {
     pub(crate) clock: Clock,
     pub(crate) logger: Logger,
     pub(crate) publications: Vec<Publication>,
-    pub(crate) servers: Vec<ServiceServer>,
+    pub(crate) servers: Vec<Box<dyn ServiceServer>>,
     pub(crate) callers: Vec<Caller>,
     pub(crate) streams: Vec<Stream>,
     pub(crate) checkpoint: Checkpoint,

@@ -2,9 +2,8 @@
 
 use super::audience::Audience;
 use super::held::Held;
-use crate::transport::dds::{LONGEST_COUNTED, NetworkWriter};
+use crate::transport::network::{Gid, NetworkWriter};
 use crate::transport::shared_memory::SharedWriter;
-use rustdds::GUID;
 use rustdds::bytes::Bytes;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -14,7 +13,7 @@ use trench_core::{Durability, Qos, Reliability, Source, Steady};
 pub(crate) struct Publication {
     topic: String,
     qos: Qos,
-    network: NetworkWriter,
+    network: Box<dyn NetworkWriter>,
     local: Option<Local>,
     /// False where only readers of this host get the messages.
     to_network: bool,
@@ -51,7 +50,7 @@ pub(crate) enum PublishProblem {
 
 impl Publication {
     /// To the network alone, unless [`Publication::share`] follows.
-    pub(crate) fn new(topic: String, qos: Qos, network: NetworkWriter) -> Self {
+    pub(crate) fn new(topic: String, qos: Qos, network: Box<dyn NetworkWriter>) -> Self {
         Self {
             topic,
             qos,
@@ -69,20 +68,20 @@ impl Publication {
     /// `max_len`: the longest message, bytes.
     pub(crate) fn share(&mut self, writer: SharedWriter, max_len: usize, to_network: bool) {
         let held = Held::new(writer.buffered() / 2);
-        let may_be_alone = max_len <= LONGEST_COUNTED && self.qos.durability == Durability::Volatile;
+        let may_be_alone = max_len <= self.network.longest_counted() && self.qos.durability == Durability::Volatile;
         self.local =
             Some(Local { writer, readers: 0, audience: Audience::default(), held, may_be_alone, alone: false });
         self.to_network = to_network;
     }
 
     /// Follows who reads the topic on the network.
-    pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
-        if writer != self.network.guid() {
+    pub(crate) fn readers_changed(&mut self, writer: &Gid, readers: &BTreeSet<Gid>) {
+        if *writer != self.network.gid() {
             return;
         }
         self.is_read = !readers.is_empty();
         if let Some(local) = &mut self.local {
-            local.audience.matched(readers.iter().map(|reader| reader.to_bytes()).collect());
+            local.audience.matched(readers.clone());
             // A reader that has just come did not ask for the past.
             local.held.clear();
         }

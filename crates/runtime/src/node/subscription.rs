@@ -2,7 +2,7 @@
 
 use super::early::Early;
 use crate::transport::Delivered;
-use crate::transport::dds::{NetworkReader, NetworkSample, TopicName};
+use crate::transport::network::{NetworkReader, NetworkSample, TopicName};
 use crate::transport::shared_memory::{Host, SharedReader, SharedSample, SharedTopic};
 use rustdds::mio1::{Registry, Token};
 use std::collections::VecDeque;
@@ -17,11 +17,10 @@ const GAP_SECONDS: f64 = 0.3;
 
 /// Both ends of the same subscription: this host's and the network's.
 pub(crate) struct Subscription {
-    topic: String,
-    network_name: TopicName,
+    name: TopicName,
     shared_name: SharedTopic,
     qos: Qos,
-    pub(crate) network: NetworkReader,
+    pub(crate) network: Box<dyn NetworkReader>,
     local: Option<SharedReader>,
     /// What shared memory wakes the loop by; none where messages wait for the next event.
     local_token: Option<Token>,
@@ -34,10 +33,8 @@ pub(crate) struct Subscription {
 
 /// What a subscription reads.
 pub(crate) struct Reading {
-    /// The absolute name.
-    pub(crate) topic: String,
-    /// As the network names topic and type.
-    pub(crate) network_name: TopicName,
+    /// Topic and type.
+    pub(crate) name: TopicName,
     /// As shared memory names them.
     pub(crate) shared_name: SharedTopic,
     /// What the node asked for.
@@ -45,13 +42,12 @@ pub(crate) struct Reading {
 }
 
 impl Subscription {
-    pub(crate) fn new(reading: Reading, network: NetworkReader, local_token: Option<Token>) -> Self {
-        let Reading { topic, network_name, shared_name, qos } = reading;
+    pub(crate) fn new(reading: Reading, network: Box<dyn NetworkReader>, local_token: Option<Token>) -> Self {
+        let Reading { name, shared_name, qos } = reading;
         let retry = Some((Steady(0), 1));
         let delivered = Delivered::default();
         Self {
-            topic,
-            network_name,
+            name,
             shared_name,
             qos,
             network,
@@ -71,18 +67,18 @@ impl Subscription {
 
     /// The absolute name.
     pub(crate) fn topic(&self) -> &str {
-        &self.topic
+        self.name.topic()
     }
 
     /// Whether it is what `subscribe` asks for under the absolute name `topic`.
     pub(crate) fn reads(&self, topic: &str, subscribe: &Subscribe) -> bool {
-        let name = TopicName::message(topic, subscribe.type_info.name);
-        self.network_name == name && self.qos == subscribe.qos && self.wakes() == subscribe.wakes
+        let same_type = self.name.type_name() == subscribe.type_info.name;
+        self.topic() == topic && same_type && self.qos == subscribe.qos && self.wakes() == subscribe.wakes
     }
 
-    /// How the network names topic and type.
-    pub(crate) fn network_name(&self) -> &TopicName {
-        &self.network_name
+    /// The type that is read.
+    pub(crate) fn type_name(&self) -> &'static str {
+        self.name.type_name()
     }
 
     /// How many messages of a reliable writer went missing since the last call: it sent faster than this node reads.

@@ -1,5 +1,10 @@
 //! The six services of a node's parameters.
 
+use trench_msgs::rcl_interfaces::{
+    DescribeParameters, GetParameterTypes, GetParameters, ListParameters, SetParameters, SetParametersAtomically,
+};
+use trench_msgs::{ServiceInfo, service_info};
+
 /// One of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ParameterService {
@@ -29,14 +34,14 @@ impl ParameterService {
     }
 
     /// Its type.
-    pub(crate) fn type_name(self) -> &'static str {
+    pub(crate) fn info(self) -> ServiceInfo {
         match self {
-            Self::Describe => "rcl_interfaces/srv/DescribeParameters",
-            Self::Get => "rcl_interfaces/srv/GetParameters",
-            Self::GetTypes => "rcl_interfaces/srv/GetParameterTypes",
-            Self::List => "rcl_interfaces/srv/ListParameters",
-            Self::Set => "rcl_interfaces/srv/SetParameters",
-            Self::SetAtomically => "rcl_interfaces/srv/SetParametersAtomically",
+            Self::Describe => service_info::<DescribeParameters>(),
+            Self::Get => service_info::<GetParameters>(),
+            Self::GetTypes => service_info::<GetParameterTypes>(),
+            Self::List => service_info::<ListParameters>(),
+            Self::Set => service_info::<SetParameters>(),
+            Self::SetAtomically => service_info::<SetParametersAtomically>(),
         }
     }
 }

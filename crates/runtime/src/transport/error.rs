@@ -13,6 +13,12 @@ pub enum TransportError {
         /// What the DDS implementation says.
         reason: String,
     },
+    /// The network, where it is Zenoh.
+    #[error("cannot join Zenoh: {reason}; check ZENOH_SESSION_CONFIG_URI and ZENOH_CONFIG_OVERRIDE")]
+    Zenoh {
+        /// What Zenoh says.
+        reason: String,
+    },
     /// One topic or service.
     #[error("cannot open {name}: {reason}")]
     Endpoint {

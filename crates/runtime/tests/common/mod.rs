@@ -14,6 +14,8 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(40);
 pub(crate) struct Island {
     domain: u16,
     name: String,
+    /// A Zenoh router and where it listens, if the processes speak Zenoh.
+    pub(crate) router: Option<(Running, String)>,
 }
 
 /// A node's process with its lines of output.
@@ -29,7 +31,7 @@ impl Island {
         // A second run at the same time on this host has domains of its own, most likely. Above 101 the ports of a domain
         // are among those that the kernel gives to anyone (/proc/sys/net/ipv4/ip_local_port_range).
         let domain = 1 + number + (std::process::id() % 2) as u16 * 50;
-        Self { domain, name: format!("test{}n{number}", std::process::id()) }
+        Self { domain, name: format!("test{}n{number}", std::process::id()), router: None }
     }
 
     /// A command of an example with these arguments.
@@ -40,6 +42,13 @@ impl Island {
         command.args(arguments.split_whitespace());
         command.env("ROS_DOMAIN_ID", self.domain.to_string()).env("TRENCH_SHM_PREFIX", &self.name);
         command.env("TRENCH_STATE_DIR", std::env::temp_dir().join(&self.name));
+        match &self.router {
+            Some((_, locator)) => command
+                .env("RMW_IMPLEMENTATION", "rmw_zenoh_cpp")
+                .env("ZENOH_CONFIG_OVERRIDE", format!("connect/endpoints=[\"{locator}\"]")),
+            None => command.env("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp").env_remove("ZENOH_CONFIG_OVERRIDE"),
+        };
+        command.env_remove("ZENOH_SESSION_CONFIG_URI").env_remove("ZENOH_ROUTER_CONFIG_URI");
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }

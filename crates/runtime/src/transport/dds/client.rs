@@ -1,52 +1,43 @@
 //! The calling end of a service.
 
-use super::reader::NetworkReader;
-use super::writer::{Congested, NetworkWriter};
-use rustdds::GUID;
+use super::reader::DdsReader;
+use super::writer::DdsWriter;
+use crate::transport::network::{Congested, Gid, NetworkReader, NetworkWriter, ServiceClient};
 use rustdds::bytes::Bytes;
+use rustdds::mio1::{Interest, Registry, Token, event};
 use std::collections::BTreeSet;
+use std::io;
 
 /// Sends requests and takes their responses.
-pub(crate) struct ServiceClient {
-    pub(crate) responses: NetworkReader,
-    requests: NetworkWriter,
+pub(crate) struct DdsClient {
+    responses: DdsReader,
+    requests: DdsWriter,
     servers_read: bool,
     servers_write: bool,
 }
 
-impl ServiceClient {
-    pub(super) fn new(requests: NetworkWriter, responses: NetworkReader) -> Self {
+impl DdsClient {
+    pub(super) fn new(requests: DdsWriter, responses: DdsReader) -> Self {
         Self { responses, requests, servers_read: false, servers_write: false }
     }
+}
 
-    /// Follows who reads the requests.
-    pub(crate) fn readers_changed(&mut self, writer: GUID, readers: &BTreeSet<GUID>) {
-        if writer == self.requests.guid() {
-            self.servers_read = !readers.is_empty();
-        }
+impl ServiceClient for DdsClient {
+    fn clear_wakeup(&self) {
+        self.responses.clear_wakeup();
     }
 
-    /// Follows who writes responses.
-    pub(crate) fn writers_changed(&mut self, reader: GUID, writers: usize) {
-        if reader == self.responses.guid() {
-            self.servers_write = writers > 0;
-        }
-    }
-
-    /// Whether a server is there, both to hear and to answer.
-    pub(crate) fn is_ready(&self) -> bool {
+    fn is_ready(&self) -> bool {
         self.servers_read && self.servers_write
     }
 
-    /// Sends a request (CDR with its header) and gives its count.
-    pub(crate) fn call(&mut self, request: Bytes) -> Result<u64, Congested> {
+    fn call(&mut self, request: Bytes) -> Result<u64, Congested> {
         self.requests.write(request)
     }
 
-    /// The next response to one of our own requests with that request's count, or what is wrong with it.
-    pub(crate) fn take(&self) -> Option<Result<(u64, Bytes), String>> {
+    fn take(&mut self) -> Option<Result<(u64, Bytes), String>> {
         loop {
-            let sample = match self.responses.take()? {
+            let sample = match self.responses.take_identified()? {
                 Ok(sample) => sample,
                 Err(problem) => return Some(Err(problem)),
             };
@@ -58,8 +49,33 @@ impl ServiceClient {
         }
     }
 
-    /// Sends what waits; true when nothing waits any longer.
-    pub(crate) fn flush(&mut self) -> bool {
+    fn readers_changed(&mut self, writer: &Gid, readers: &BTreeSet<Gid>) {
+        if *writer == self.requests.gid() {
+            self.servers_read = !readers.is_empty();
+        }
+    }
+
+    fn writers_changed(&mut self, reader: &Gid, writers: usize) {
+        if *reader == self.responses.gid() {
+            self.servers_write = writers > 0;
+        }
+    }
+
+    fn flush(&mut self) -> bool {
         self.requests.flush()
+    }
+}
+
+impl event::Source for DdsClient {
+    fn register(&mut self, registry: &Registry, token: Token, interests: Interest) -> io::Result<()> {
+        self.responses.register(registry, token, interests)
+    }
+
+    fn reregister(&mut self, registry: &Registry, token: Token, interests: Interest) -> io::Result<()> {
+        self.responses.reregister(registry, token, interests)
+    }
+
+    fn deregister(&mut self, registry: &Registry) -> io::Result<()> {
+        self.responses.deregister(registry)
     }
 }

@@ -1,6 +1,7 @@
 //! What this process tells the ROS graph: which node owns which endpoints (`ros_discovery_info`).
 
-use super::TransportError;
+use crate::transport::TransportError;
+use crate::transport::full_name;
 use ros2_client::NodeName;
 use ros2_client::entities_info::{NodeEntitiesInfo, ParticipantEntitiesInfo};
 use rustdds::no_key::DataWriterCdr;
@@ -61,9 +62,4 @@ impl Graph {
         let info = ParticipantEntitiesInfo::new(self.participant.into(), self.nodes.values().cloned().collect());
         self.writer.write(info, None).map_err(|error| TransportError::endpoint(TOPIC, &error))
     }
-}
-
-/// `/robot1` and `controller` make `/robot1/controller`.
-pub(crate) fn full_name(namespace: &str, name: &str) -> String {
-    format!("{}/{name}", namespace.trim_end_matches('/'))
 }

@@ -6,6 +6,7 @@
 
 mod client;
 mod graph;
+mod name;
 mod participant;
 mod qos;
 mod raw;
@@ -14,12 +15,10 @@ mod server;
 mod status;
 mod writer;
 
-pub(crate) use client::ServiceClient;
-pub(crate) use graph::full_name;
-pub(crate) use participant::{Participant, TopicName};
-pub(crate) use reader::{NetworkReader, NetworkSample};
-pub(crate) use server::{PendingRequest, ServiceServer};
-pub(crate) use status::{GraphChange, StatusReader};
-pub(crate) use writer::{LONGEST_COUNTED, NetworkWriter};
+pub(crate) use participant::Participant;
 
-use super::TransportError;
+use client::DdsClient;
+use name::DdsName;
+use reader::DdsReader;
+use server::DdsServer;
+use writer::DdsWriter;

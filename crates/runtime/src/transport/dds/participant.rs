@@ -3,62 +3,18 @@
 use super::graph::{Endpoint, Graph};
 use super::raw::{RawAdapter, RawMessage};
 use super::status::StatusReader;
-use super::{NetworkReader, NetworkWriter, ServiceClient, ServiceServer, TransportError, qos};
+use super::{DdsClient, DdsName, DdsReader, DdsServer, DdsWriter, qos};
+use crate::transport::TransportError;
+use crate::transport::network::{
+    Gid, GraphWatch, Network, NetworkReader, NetworkWriter, ServiceClient, ServiceServer, TopicName,
+};
 use rustdds::no_key::{DataWriter, SimpleDataReader};
 use rustdds::{
     DomainParticipant, DomainParticipantBuilder, GUID, Publisher, QosPolicies, QosPolicyBuilder, Subscriber, Topic,
 };
 use rustdds::{RTPSEntity, TopicKind};
 use trench_core::Qos;
-
-/// A topic as DDS names it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct TopicName {
-    topic: String,
-    type_name: String,
-}
-
-impl TopicName {
-    /// `/team_state` of type `trench_msgs/msg/TeamState`.
-    pub(crate) fn message(topic: &str, type_name: &str) -> Self {
-        Self { topic: format!("rt{topic}"), type_name: dds_type(type_name, "") }
-    }
-
-    /// The requests of service `/node/arm` of type `std_srvs/srv/Trigger`.
-    pub(crate) fn request(service: &str, type_name: &str) -> Self {
-        Self { topic: format!("rq{service}Request"), type_name: dds_type(type_name, "_Request") }
-    }
-
-    /// The responses of the same service.
-    pub(crate) fn response(service: &str, type_name: &str) -> Self {
-        Self { topic: format!("rr{service}Reply"), type_name: dds_type(type_name, "_Response") }
-    }
-
-    /// Topic and type as ROS names them; nothing for what is no topic of ROS (services, DDS's own).
-    pub(crate) fn ros_message(topic: &str, type_name: &str) -> Option<(String, String)> {
-        let topic = topic.strip_prefix("rt").filter(|topic| topic.starts_with('/'))?;
-        let (package, name) = type_name.split_once("::msg::dds_::")?;
-        Some((topic.to_owned(), format!("{package}/msg/{}", name.strip_suffix('_')?)))
-    }
-
-    /// The topic, `rt/team_state`.
-    pub(crate) fn topic(&self) -> &str {
-        &self.topic
-    }
-
-    /// The type, `trench_msgs::msg::dds_::TeamState_`.
-    pub(crate) fn type_name(&self) -> &str {
-        &self.type_name
-    }
-}
-
-/// `package/msg/Name` is `package::msg::dds_::Name_` on the network.
-fn dds_type(ros: &str, suffix: &str) -> String {
-    match ros.rsplit_once('/') {
-        Some((package, name)) => format!("{}::dds_::{name}{suffix}_", package.replace('/', "::")),
-        None => format!("dds_::{ros}{suffix}_"),
-    }
-}
+use trench_msgs::ServiceInfo;
 
 /// The participant and what its nodes own.
 pub(crate) struct Participant {
@@ -80,54 +36,23 @@ impl Participant {
         Ok(Self { participant, publisher, subscriber, graph })
     }
 
-    /// Adds a node, which then can own endpoints by its full name.
-    pub(crate) fn add_node(&mut self, namespace: &str, name: &str) -> Result<(), TransportError> {
-        self.graph.add_node(namespace, name)
-    }
-
-    /// Tells the ROS graph about all nodes and endpoints made so far.
-    pub(crate) fn announce(&self) -> Result<(), TransportError> {
-        self.graph.announce()
-    }
-
     /// Changes of the ROS graph, for the event loop.
-    pub(crate) fn status(&self) -> StatusReader {
-        StatusReader::new(self.participant.status_listener())
+    pub(crate) fn status(&self) -> Box<dyn GraphWatch> {
+        Box::new(StatusReader::new(self.participant.status_listener()))
     }
 
-    /// Opens a topic for writing.
-    pub(crate) fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<NetworkWriter, TransportError> {
-        Ok(NetworkWriter::new(self.data_writer(node, name, qos::writer(qos))?))
+    fn dds_writer(&mut self, node: &str, name: &DdsName, qos: Qos) -> Result<DdsWriter, TransportError> {
+        Ok(DdsWriter::new(self.data_writer(node, name, qos::writer(qos))?))
     }
 
-    /// Opens a topic for reading.
-    pub(crate) fn reader(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<NetworkReader, TransportError> {
-        Ok(NetworkReader::new(self.data_reader(node, name, qos::reader(qos))?))
-    }
-
-    /// Tells the ROS graph that another node of this process reads by `reader` too.
-    pub(crate) fn share_reader(&mut self, node: &str, reader: GUID) {
-        self.graph.add(node, Endpoint::Reader(reader));
-    }
-
-    /// Opens the serving end of a service.
-    pub(crate) fn server(&mut self, node: &str, service: &str, kind: &str) -> Result<ServiceServer, TransportError> {
-        let requests = self.reader(node, &TopicName::request(service, kind), qos::SERVICE)?;
-        let responses = self.writer(node, &TopicName::response(service, kind), qos::SERVICE)?;
-        Ok(ServiceServer::new(requests, responses, self.participant.clone()))
-    }
-
-    /// Opens the calling end of a service.
-    pub(crate) fn client(&mut self, node: &str, service: &str, kind: &str) -> Result<ServiceClient, TransportError> {
-        let requests = self.writer(node, &TopicName::request(service, kind), qos::SERVICE)?;
-        let responses = self.reader(node, &TopicName::response(service, kind), qos::SERVICE)?;
-        Ok(ServiceClient::new(requests, responses))
+    fn dds_reader(&mut self, node: &str, name: &DdsName, qos: Qos) -> Result<DdsReader, TransportError> {
+        Ok(DdsReader::new(self.data_reader(node, name, qos::reader(qos))?))
     }
 
     fn data_writer(
         &mut self,
         node: &str,
-        name: &TopicName,
+        name: &DdsName,
         qos: QosPolicies,
     ) -> Result<DataWriter<RawMessage, RawAdapter>, TransportError> {
         let topic = self.topic(name, &qos)?;
@@ -142,7 +67,7 @@ impl Participant {
     fn data_reader(
         &mut self,
         node: &str,
-        name: &TopicName,
+        name: &DdsName,
         qos: QosPolicies,
     ) -> Result<SimpleDataReader<RawMessage, RawAdapter>, TransportError> {
         let topic = self.topic(name, &qos)?;
@@ -154,30 +79,53 @@ impl Participant {
         Ok(reader)
     }
 
-    fn topic(&self, name: &TopicName, qos: &QosPolicies) -> Result<Topic, TransportError> {
+    fn topic(&self, name: &DdsName, qos: &QosPolicies) -> Result<Topic, TransportError> {
         self.participant
             .create_topic(name.topic.clone(), name.type_name.clone(), qos, TopicKind::NoKey)
             .map_err(|error| TransportError::endpoint(&name.topic, &error))
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+impl Network for Participant {
+    fn add_node(&mut self, namespace: &str, name: &str) -> Result<(), TransportError> {
+        self.graph.add_node(namespace, name)
+    }
 
-    #[test]
-    fn names_on_the_network_are_those_of_ros() {
-        let check = |name: TopicName, topic: &str, type_name: &str| {
-            assert_eq!((name.topic.as_str(), name.type_name.as_str()), (topic, type_name));
-        };
-        check(TopicName::message("/tf", "tf2_msgs/msg/TFMessage"), "rt/tf", "tf2_msgs::msg::dds_::TFMessage_");
-        let ros = |topic: &str, type_name: &str| TopicName::ros_message(topic, type_name);
-        let expected = Some(("/tf".to_owned(), "tf2_msgs/msg/TFMessage".to_owned()));
-        assert_eq!(ros("rt/tf", "tf2_msgs::msg::dds_::TFMessage_"), expected);
-        assert_eq!(ros("rq/a/armRequest", "std_srvs::srv::dds_::Trigger_Request_"), None);
-        assert_eq!(ros("ros_discovery_info", "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"), None);
-        let trigger = "std_srvs/srv/Trigger";
-        check(TopicName::request("/a/arm", trigger), "rq/a/armRequest", "std_srvs::srv::dds_::Trigger_Request_");
-        check(TopicName::response("/a/arm", trigger), "rr/a/armReply", "std_srvs::srv::dds_::Trigger_Response_");
+    fn announce(&self) -> Result<(), TransportError> {
+        self.graph.announce()
+    }
+
+    fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {
+        Ok(Box::new(self.dds_writer(node, &DdsName::message(name.topic(), name.type_name()), qos)?))
+    }
+
+    fn reader(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkReader>, TransportError> {
+        Ok(Box::new(self.dds_reader(node, &DdsName::message(name.topic(), name.type_name()), qos)?))
+    }
+
+    fn share_reader(&mut self, node: &str, reader: Gid) {
+        self.graph.add(node, Endpoint::Reader(GUID::from_bytes(reader)));
+    }
+
+    fn server(
+        &mut self,
+        node: &str,
+        service: &str,
+        info: ServiceInfo,
+    ) -> Result<Box<dyn ServiceServer>, TransportError> {
+        let requests = self.dds_reader(node, &DdsName::request(service, info.name), qos::SERVICE)?;
+        let responses = self.dds_writer(node, &DdsName::response(service, info.name), qos::SERVICE)?;
+        Ok(Box::new(DdsServer::new(requests, responses, self.participant.clone())))
+    }
+
+    fn client(
+        &mut self,
+        node: &str,
+        service: &str,
+        info: ServiceInfo,
+    ) -> Result<Box<dyn ServiceClient>, TransportError> {
+        let requests = self.dds_writer(node, &DdsName::request(service, info.name), qos::SERVICE)?;
+        let responses = self.dds_reader(node, &DdsName::response(service, info.name), qos::SERVICE)?;
+        Ok(Box::new(DdsClient::new(requests, responses)))
     }
 }

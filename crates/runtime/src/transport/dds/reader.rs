@@ -2,6 +2,7 @@
 
 use super::raw::{RawAdapter, RawMessage};
 use super::writer::gid;
+use crate::transport::network::{Gid, NetworkReader, NetworkSample};
 use rustdds::bytes::Bytes;
 use rustdds::mio1::{Interest, Registry, Token, event};
 use rustdds::no_key::{DeserializedCacheChange, SimpleDataReader};
@@ -9,34 +10,29 @@ use rustdds::{GUID, SampleIdentity};
 use std::io;
 use trench_core::Source;
 
-/// A message from the network.
+/// A message with what services need to know of it.
 #[derive(Debug)]
-pub(crate) struct NetworkSample {
+pub(super) struct DdsSample {
     /// Writer and count.
-    pub(crate) source: Source,
+    source: Source,
     /// CDR with its header.
-    pub(crate) cdr: Bytes,
+    pub(super) cdr: Bytes,
     pub(super) identity: SampleIdentity,
     pub(super) related: Option<SampleIdentity>,
 }
 
 /// Takes messages in the order of each writer.
-pub(crate) struct NetworkReader {
+pub(crate) struct DdsReader {
     reader: SimpleDataReader<RawMessage, RawAdapter>,
 }
 
-impl NetworkReader {
+impl DdsReader {
     pub(super) fn new(reader: SimpleDataReader<RawMessage, RawAdapter>) -> Self {
         Self { reader }
     }
 
-    /// Acknowledges the wake-up; to be called before taking, or a later arrival may go unnoticed.
-    pub(crate) fn clear_wakeup(&self) {
-        self.reader.drain_read_notifications();
-    }
-
     /// The next message, or what is wrong with it; `None` when all are taken.
-    pub(crate) fn take(&self) -> Option<Result<NetworkSample, String>> {
+    pub(super) fn take_identified(&self) -> Option<Result<DdsSample, String>> {
         match self.reader.try_take_one() {
             Ok(None) => None,
             Ok(Some(change)) => Some(Ok(sample(change))),
@@ -44,17 +40,27 @@ impl NetworkReader {
         }
     }
 
-    pub(crate) fn guid(&self) -> GUID {
+    pub(super) fn guid(&self) -> GUID {
         self.reader.guid()
-    }
-
-    /// This reader's identity on the network.
-    pub(crate) fn gid(&self) -> [u8; 16] {
-        gid(self.guid())
     }
 }
 
-fn sample(change: DeserializedCacheChange<RawMessage>) -> NetworkSample {
+impl NetworkReader for DdsReader {
+    fn gid(&self) -> Gid {
+        gid(self.guid())
+    }
+
+    fn clear_wakeup(&self) {
+        self.reader.drain_read_notifications();
+    }
+
+    fn take(&self) -> Option<Result<NetworkSample, String>> {
+        let taken = self.take_identified()?;
+        Some(taken.map(|sample| NetworkSample { source: sample.source, cdr: sample.cdr }))
+    }
+}
+
+fn sample(change: DeserializedCacheChange<RawMessage>) -> DdsSample {
     let identity = SampleIdentity { writer_guid: change.writer_guid, sequence_number: change.sequence_number };
     let related = change.related_sample_identity();
     // A writer of ours whose network has rested says its own count.
@@ -62,10 +68,10 @@ fn sample(change: DeserializedCacheChange<RawMessage>) -> NetworkSample {
     // RTPS counts from 1 and never below.
     let sequence = i64::from(own.map_or(change.sequence_number, |own| own.sequence_number));
     let source = Source { gid: gid(change.writer_guid), sequence: u64::try_from(sequence).unwrap_or(0) };
-    NetworkSample { source, identity, related, cdr: change.into_value().0 }
+    DdsSample { source, identity, related, cdr: change.into_value().0 }
 }
 
-impl event::Source for NetworkReader {
+impl event::Source for DdsReader {
     fn register(&mut self, registry: &Registry, token: Token, interests: Interest) -> io::Result<()> {
         self.reader.register(registry, token, interests)
     }

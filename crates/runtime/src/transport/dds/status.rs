@@ -1,23 +1,12 @@
 //! What changes in the ROS graph around this process.
 
+use super::name::{ros_topic, ros_type};
+use super::writer::gid;
+use crate::transport::network::{GraphChange, GraphWatch};
 use rustdds::mio1::{Interest, Registry, Token, event};
 use rustdds::{DomainParticipantStatusEvent as Status, DomainParticipantStatusListener, GUID, StatusEvented};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use trench_core::Qos;
-
-/// A change that nodes or their operator want to know of.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum GraphChange {
-    /// The number of writers matched to a reader changed.
-    Matched { reader: GUID, writers: usize },
-    /// The readers matched to a writer changed.
-    Readers { writer: GUID, readers: BTreeSet<GUID> },
-    /// Another process writes a topic that some reader here may read. The type's hash is empty where it is not told.
-    Writer { topic: String, type_name: String, type_hash: String, qos: Qos },
-    /// A reader and a writer of one topic cannot talk.
-    Incompatible { local: GUID, remote: GUID },
-}
 
 /// Follows the matches of all readers and writers of this process.
 pub(crate) struct StatusReader {
@@ -31,27 +20,18 @@ impl StatusReader {
         Self { listener, writers_of: BTreeMap::new(), readers_of: BTreeMap::new() }
     }
 
-    /// All changes since the last call.
-    pub(crate) fn take(&mut self) -> Vec<GraphChange> {
-        let mut changes = Vec::new();
-        while let Some(status) = self.listener.try_recv_status() {
-            self.follow(status, &mut changes);
-        }
-        changes
-    }
-
     fn follow(&mut self, status: Status, changes: &mut Vec<GraphChange>) {
         match status {
             Status::RemoteWriterMatched { local_reader, remote_writer } => {
                 let writers = self.writers_of.entry(local_reader).or_default();
                 if writers.insert(remote_writer) {
-                    changes.push(GraphChange::Matched { reader: local_reader, writers: writers.len() });
+                    changes.push(GraphChange::Matched { reader: gid(local_reader), writers: writers.len() });
                 }
             }
             Status::RemoteReaderMatched { local_writer, remote_reader } => {
                 let readers = self.readers_of.entry(local_writer).or_default();
                 if readers.insert(remote_reader) {
-                    changes.push(GraphChange::Readers { writer: local_writer, readers: readers.clone() });
+                    changes.push(matched_readers(local_writer, readers));
                 }
             }
             Status::WriterLost { guid, .. } | Status::ReaderLost { guid, .. } => {
@@ -59,18 +39,15 @@ impl StatusReader {
             }
             Status::ParticipantLost { id, .. } => self.forget(|endpoint| endpoint.prefix == id, changes),
             Status::WriterDetected { writer } => {
-                changes.push(GraphChange::Writer {
-                    topic: writer.topic_name,
-                    type_name: writer.type_name,
+                changes.extend(ros_topic(&writer.topic_name).map(|topic| GraphChange::Writer {
+                    topic: topic.to_owned(),
+                    type_name: ros_type(&writer.type_name),
                     type_hash: type_hash(&writer.user_data),
                     qos: super::qos::offered(&writer.qos),
-                });
+                }));
             }
             Status::RemoteWriterQosIncompatible { local_reader, remote_writer, .. } => {
-                changes.push(GraphChange::Incompatible { local: local_reader, remote: remote_writer });
-            }
-            Status::RemoteReaderQosIncompatible { local_writer, remote_reader, .. } => {
-                changes.push(GraphChange::Incompatible { local: local_writer, remote: remote_reader });
+                changes.push(GraphChange::Incompatible { reader: gid(local_reader), writer: gid(remote_writer) });
             }
             _ => {}
         }
@@ -79,15 +56,29 @@ impl StatusReader {
     fn forget(&mut self, lost: impl Fn(&GUID) -> bool, changes: &mut Vec<GraphChange>) {
         for (reader, writers) in &mut self.writers_of {
             if remove(writers, &lost) {
-                changes.push(GraphChange::Matched { reader: *reader, writers: writers.len() });
+                changes.push(GraphChange::Matched { reader: gid(*reader), writers: writers.len() });
             }
         }
         for (writer, readers) in &mut self.readers_of {
             if remove(readers, &lost) {
-                changes.push(GraphChange::Readers { writer: *writer, readers: readers.clone() });
+                changes.push(matched_readers(*writer, readers));
             }
         }
     }
+}
+
+impl GraphWatch for StatusReader {
+    fn take(&mut self) -> Vec<GraphChange> {
+        let mut changes = Vec::new();
+        while let Some(status) = self.listener.try_recv_status() {
+            self.follow(status, &mut changes);
+        }
+        changes
+    }
+}
+
+fn matched_readers(writer: GUID, readers: &BTreeSet<GUID>) -> GraphChange {
+    GraphChange::Readers { writer: gid(writer), readers: readers.iter().copied().map(gid).collect() }
 }
 
 /// What ROS 2 says of a topic's type beside its name: `typehash=RIHS01_...;` among the user data.

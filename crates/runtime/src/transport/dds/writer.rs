@@ -1,6 +1,7 @@
 //! The network end of a publication.
 
 use super::raw::{RawAdapter, RawMessage};
+use crate::transport::network::{Congested, Gid, NetworkWriter};
 use rustdds::bytes::Bytes;
 use rustdds::no_key::DataWriter;
 use rustdds::{GUID, RTPSEntity, SampleIdentity, SequenceNumber, Timestamp, WriteOptions, WriteOptionsBuilder};
@@ -14,53 +15,23 @@ const WAITING: usize = 8192;
 /// The longest message that can carry its count, bytes. RustDDS 0.15.1 cuts longer ones into fragments (above 1452 bytes
 /// on an Ethernet), and writes fragments with inline quality of service, which is where the count is, so that nobody
 /// can read them.
-pub(crate) const LONGEST_COUNTED: usize = 1024;
+const LONGEST_COUNTED: usize = 1024;
 
 /// The longest message that can say which request it answers, bytes: RustDDS 0.15.1 cuts up what is longer than 1452 bytes
 /// less heartbeat (32) and header (48) where a reader announces an Ethernet address. The request, too, is said in inline
 /// quality of service.
 pub(super) const LONGEST_RELATED: usize = 1372;
 
-/// The network can take no more: the readers have not acknowledged thousands of messages.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Congested;
-
 /// Writes messages in order and never blocks: what the send window does not take waits here.
-pub(crate) struct NetworkWriter {
+pub(crate) struct DdsWriter {
     writer: DataWriter<RawMessage, RawAdapter>,
     waiting: VecDeque<(RawMessage, WriteOptions)>,
     accepted: u64,
 }
 
-impl NetworkWriter {
+impl DdsWriter {
     pub(super) fn new(writer: DataWriter<RawMessage, RawAdapter>) -> Self {
         Self { writer, waiting: VecDeque::new(), accepted: 0 }
-    }
-
-    /// This writer's identity on the network.
-    pub(crate) fn gid(&self) -> [u8; 16] {
-        gid(self.writer.guid())
-    }
-
-    /// Whether [`NetworkWriter::write`] would take a message now.
-    pub(crate) fn has_room(&self) -> bool {
-        self.waiting.len() < WAITING
-    }
-
-    /// Takes a message (CDR with its header) for sending and gives its count.
-    pub(crate) fn write(&mut self, message: Bytes) -> Result<u64, Congested> {
-        self.write_with(message, WriteOptionsBuilder::new())
-    }
-
-    /// Takes a message that is number `count` of its writer, where the network did not get all before it. Readers of
-    /// ours are told its own count where the network's differs.
-    pub(crate) fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
-        let mut options = WriteOptionsBuilder::new();
-        if count != self.accepted + 1 && message.len() <= LONGEST_COUNTED {
-            let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
-            options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
-        }
-        self.write_with(message, options).map(|_accepted| ())
     }
 
     /// Like [`NetworkWriter::write`], saying which request a response answers.
@@ -78,8 +49,39 @@ impl NetworkWriter {
         Ok(self.accepted)
     }
 
-    /// Sends what waits, as far as the send window lets it; true when nothing waits any longer.
-    pub(crate) fn flush(&mut self) -> bool {
+    pub(crate) fn guid(&self) -> GUID {
+        self.writer.guid()
+    }
+}
+
+impl NetworkWriter for DdsWriter {
+    fn gid(&self) -> Gid {
+        gid(self.writer.guid())
+    }
+
+    fn has_room(&self) -> bool {
+        self.waiting.len() < WAITING
+    }
+
+    fn write(&mut self, message: Bytes) -> Result<u64, Congested> {
+        self.write_with(message, WriteOptionsBuilder::new())
+    }
+
+    /// Readers of ours are told the writer's own count where the network's differs.
+    fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
+        let mut options = WriteOptionsBuilder::new();
+        if count != self.accepted + 1 && message.len() <= LONGEST_COUNTED {
+            let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
+            options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
+        }
+        self.write_with(message, options).map(|_accepted| ())
+    }
+
+    fn longest_counted(&self) -> usize {
+        LONGEST_COUNTED
+    }
+
+    fn flush(&mut self) -> bool {
         while let Some((message, options)) = self.waiting.pop_front() {
             // A message is a counted reference to bytes: this clone copies none of them.
             if self.writer.write_with_options(message.clone(), options.clone()).is_err() {
@@ -90,18 +92,13 @@ impl NetworkWriter {
         true
     }
 
-    /// Waits until the readers have everything, or time is over.
-    pub(crate) fn settle(&mut self, max_wait: Duration) {
+    fn settle(&mut self, max_wait: Duration) {
         self.flush();
         let _given_up = self.writer.wait_for_acknowledgments(max_wait);
-    }
-
-    pub(crate) fn guid(&self) -> GUID {
-        self.writer.guid()
     }
 }
 
 /// A DDS identity as ROS 2 shows it.
-pub(super) fn gid(guid: GUID) -> [u8; 16] {
+pub(super) fn gid(guid: GUID) -> Gid {
     guid.to_bytes()
 }
