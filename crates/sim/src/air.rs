@@ -1,5 +1,6 @@
 //! Packets on their way between base station and robots.
 
+use crate::fault::Cuts;
 use crate::medium::{Medium, MediumSetup, Way};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,6 +30,7 @@ type Flights = BTreeMap<(u64, u64), Flying>;
 #[derive(Debug, Clone)]
 pub(crate) struct Air {
     medium: Medium,
+    cuts: Cuts,
     to_robots: Flights,
     to_base: Flights,
     sent: u64,
@@ -37,12 +39,22 @@ pub(crate) struct Air {
 impl Air {
     pub(crate) fn new(setup: MediumSetup, seed: u64, now: u64) -> Self {
         let medium = Medium::new(setup, seed, now);
-        Self { medium, to_robots: Flights::new(), to_base: Flights::new(), sent: 0 }
+        Self { medium, cuts: Cuts::default(), to_robots: Flights::new(), to_base: Flights::new(), sent: 0 }
     }
 
     /// The air becomes better or worse.
     pub(crate) fn set(&mut self, setup: MediumSetup, now: u64) {
         self.medium.set(setup, now);
+    }
+
+    /// Some do not hear each other from now on.
+    pub(crate) fn cut(&mut self, cuts: Cuts) {
+        self.cuts = cuts;
+    }
+
+    /// How well it carries.
+    pub(crate) fn setup(&self) -> MediumSetup {
+        *self.medium.setup()
     }
 
     /// A station sends a packet that is meant for the base station too, or for robots alone.
@@ -53,9 +65,12 @@ impl Air {
             Station::Base => (antenna, Way::Down),
             Station::Robot(robot) => (place(robot), Way::Across),
         };
+        // The air carries what nobody hears too: its chances do not depend on faults.
+        let silent = |robot: usize| self.cuts.silent.contains(&robot);
         if let Station::Robot(robot) = from
             && for_base
             && let Some(arrival) = self.medium.carry(now, Way::Up, origin, antenna)
+            && !silent(robot)
         {
             self.sent += 1;
             let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
@@ -63,6 +78,10 @@ impl Air {
         }
         for robot in (0..robots.len()).filter(|robot| from != Station::Robot(*robot)) {
             let Some(arrival) = self.medium.carry(now, way, origin, place(robot)) else { continue };
+            let cut = matches!(from, Station::Robot(from) if silent(from) || self.cuts.separates(from, robot));
+            if cut || silent(robot) {
+                continue;
+            }
             self.sent += 1;
             let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
             self.to_robots.insert((arrival.at, self.sent), flying);

@@ -2,6 +2,7 @@
 
 use crate::air::{Air, Station};
 use crate::base_station::BaseStation;
+use crate::fault::{Cuts, FaultKind, Faults};
 use crate::firmware::{Firmware, Sensors};
 use crate::medium::MediumSetup;
 use crate::serial_line::SerialLine;
@@ -89,6 +90,12 @@ pub struct Bed {
     laser: Laser,
     laser_noise: Random,
     start: u64,
+    faults: Faults,
+    /// How well the air carries without faults.
+    medium: MediumSetup,
+    /// When faults were put into force last and when they change next, ns.
+    faults_since: Option<u64>,
+    faults_until: u64,
     exposed: u64,
     scanned: u64,
     reports: Vec<u64>,
@@ -114,7 +121,8 @@ impl Bed {
     /// Everything at rest at `setup.start`. The first frame is exposed one period later.
     #[must_use]
     pub fn new(setup: BedSetup) -> Self {
-        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, lasers, laser, baud, key } = setup;
+        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, lasers, laser, baud, key, faults } =
+            setup;
         let poses = robots.iter().map(|(_, pose)| *pose).collect();
         let slot = |id: u8| start + u64::from(id) * (ROUND / MAX_ROBOTS as u64);
         Self {
@@ -131,6 +139,10 @@ impl Bed {
             laser,
             laser_noise: Random::new(seed, 3),
             start,
+            faults,
+            medium,
+            faults_since: None,
+            faults_until: start,
             exposed: 0,
             scanned: 0,
             reports: robots.iter().map(|&(id, _)| slot(id)).collect(),
@@ -158,6 +170,7 @@ impl Bed {
 
     /// The air becomes better or worse.
     pub fn set_medium(&mut self, setup: MediumSetup) {
+        self.medium = setup;
         self.air.set(setup, self.world.now());
     }
 
@@ -250,11 +263,58 @@ impl Bed {
     fn step(&mut self) {
         self.world.step();
         let now = self.world.now();
+        if now >= self.faults_until {
+            self.put_faults_into_force();
+        }
         for (robot, (_, firmware)) in self.firmware.iter_mut().enumerate() {
             let wheels = firmware.wheels(now);
             self.world.tell(robot, [wheels.left.speed(), wheels.right.speed()]);
         }
         self.outputs.extend(self.world.take_contacts().into_iter().map(Output::Contact));
+    }
+
+    /// The faults of this instant begin, those before are over.
+    fn put_faults_into_force(&mut self) {
+        let now = self.world.now();
+        let time = now - self.start;
+        for robot in 0..self.firmware.len() {
+            self.world.set_grip(robot, [1.0; 2]);
+        }
+        for (robot, pose) in self.faults.carried(self.faults_since, time) {
+            self.world.place(robot, pose);
+        }
+        let (mut cuts, mut medium) = (Cuts::default(), self.medium);
+        for fault in self.faults.at(time) {
+            match fault {
+                FaultKind::Slip { robots, grip } => robots.iter().for_each(|robot| self.world.set_grip(*robot, *grip)),
+                FaultKind::Silent { robots } => cuts.silent.extend(robots),
+                FaultKind::Parted { robots } => cuts.parted.push(robots.iter().copied().collect()),
+                FaultKind::Loss { loss } => medium.loss = *loss,
+                FaultKind::Carried { .. }
+                | FaultKind::Battery { .. }
+                | FaultKind::Covered { .. }
+                | FaultKind::Frames(_) => {}
+            }
+        }
+        self.air.cut(cuts);
+        if self.air.setup() != medium {
+            self.air.set(medium, now);
+        }
+        self.faults_since = Some(time);
+        self.faults_until = self.faults.next_change(time).map_or(u64::MAX, |change| self.start + change);
+    }
+
+    /// The faults at `at` (ns).
+    pub fn faults_at(&self, at: u64) -> impl Iterator<Item = &FaultKind> {
+        self.faults.at(at.saturating_sub(self.start))
+    }
+
+    fn battery(&self, now: u64, robot: usize) -> u16 {
+        let fault = self.faults_at(now).find_map(|fault| match fault {
+            FaultKind::Battery { robots, millivolts } if robots.contains(&robot) => Some(*millivolts),
+            _ => None,
+        });
+        fault.unwrap_or_else(|| battery::millivolts(now - self.start))
     }
 
     fn expose(&mut self) {
@@ -297,7 +357,7 @@ impl Bed {
         self.reports[robot] += ROUND;
         let wheels = self.world.wheels(robot).copied().unwrap_or_default();
         let sensors = Sensors {
-            battery_mv: battery::millivolts(now - self.start),
+            battery_mv: self.battery(now, robot),
             steps: wheels.map(|wheel| wheel.steps),
             lost_steps: wheels[0].lost + wheels[1].lost,
             ranges: Ranges::new(&self.world.ranges(robot)),

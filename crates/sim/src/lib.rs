@@ -2,6 +2,7 @@
 //!
 //! [`World`] holds what moves: robots with stepper motors, bodies that block each other, obstacles, lasers. [`Bed`] puts the
 //! radio before it (serial line, base station, air, firmware) and the camera's shutter above it. [`camera`] renders.
+//! [`Faults`] go wrong at their times.
 //!
 //! Architecture invariant: pure and deterministic. Times are ns of a clock that the caller owns; chance comes from one
 //! seed; what happens does not depend on how often the bed is advanced.
@@ -12,6 +13,7 @@ mod battery;
 mod bed;
 pub mod camera;
 mod contact;
+mod fault;
 mod firmware;
 mod history;
 mod interference;
@@ -32,6 +34,7 @@ mod world;
 pub use base_station::BaseStation;
 pub use bed::{Bed, Frame, Output, Scan};
 pub use contact::{Field, Thing};
+pub use fault::{Fault, FaultKind, Faults, FrameFault};
 pub use firmware::{Firmware, Sensors};
 pub use history::Truth;
 pub use interference::Bursts;

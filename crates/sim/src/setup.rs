@@ -1,6 +1,6 @@
 //! What a test bed is made of.
 
-use crate::{Body, Field, Laser, MediumSetup, Obstacle, Random};
+use crate::{Body, Faults, Field, Laser, MediumSetup, Obstacle, Random};
 use trench_optics::Pose2;
 use trench_radio::Key;
 
@@ -42,6 +42,8 @@ pub struct BedSetup {
     pub baud: u32,
     /// The robots' key, if they have one.
     pub key: Option<Key>,
+    /// What goes wrong.
+    pub faults: Faults,
 }
 
 /// Poses for `count` robots, drawn so that surfaces are at least `gap` m from each other, the obstacles and the edge.

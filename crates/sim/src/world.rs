@@ -54,6 +54,8 @@ pub struct World {
     poses: Vec<Pose2>,
     wheels: Vec<[Wheel; 2]>,
     told: Vec<[f64; 2]>,
+    /// Share of a wheel's way by which it moves the robot.
+    grip: Vec<[f64; 2]>,
     histories: Vec<History>,
     touching: BTreeSet<(usize, Thing)>,
     contacts: Vec<Contact>,
@@ -73,6 +75,7 @@ impl World {
             poses,
             wheels: vec![[Wheel::default(); 2]; count],
             told: vec![[0.0; 2]; count],
+            grip: vec![[1.0; 2]; count],
             histories,
             touching: BTreeSet::new(),
             contacts: Vec::new(),
@@ -89,6 +92,13 @@ impl World {
     pub fn tell(&mut self, robot: usize, speeds: [f64; 2]) {
         if let Some(told) = self.told.get_mut(robot) {
             *told = speeds;
+        }
+    }
+
+    /// From now on a robot's left and right wheel move it by these shares of their ways.
+    pub fn set_grip(&mut self, robot: usize, grip: [f64; 2]) {
+        if let Some(old) = self.grip.get_mut(robot) {
+            *old = grip;
         }
     }
 
@@ -156,8 +166,9 @@ impl World {
     fn move_robot(&mut self, robot: usize) {
         let (old, told) = (self.poses[robot], self.told[robot]);
         let [left, right] = &mut self.wheels[robot];
-        let left = left.turn(self.body.motor, told[0], STEP_SECONDS);
-        let right = right.turn(self.body.motor, told[1], STEP_SECONDS);
+        let [left_grip, right_grip] = self.grip[robot];
+        let left = left_grip * left.turn(self.body.motor, told[0], STEP_SECONDS);
+        let right = right_grip * right.turn(self.body.motor, told[1], STEP_SECONDS);
         let free = rolled(old, left, right, self.body.half_axle);
         let mut touched = Vec::new();
         let end = self.surroundings().blocked(robot, [old.x, old.y], [free.x, free.y], |thing| touched.push(thing));

@@ -8,7 +8,7 @@ use trench_radio::{
     Telemetry, WheelTimer, Wheels,
 };
 use trench_sim::{
-    Bed, BedSetup, Body, Field, Laser, MediumSetup, Motor, Obstacle, Output, Scan, Shutter, Thing, camera,
+    Bed, BedSetup, Body, Faults, Field, Laser, MediumSetup, Motor, Obstacle, Output, Scan, Shutter, Thing, camera,
 };
 
 const MS: u64 = 1_000_000;
@@ -35,6 +35,7 @@ fn setup(robots: &[Pose2]) -> BedSetup {
         },
         baud: 115_200,
         key: None,
+        faults: Faults::default(),
     }
 }
 

@@ -1,37 +1,38 @@
 //! The node core: lets the world go on whenever something is due, and publishes what comes out.
 
-use crate::detections::discs;
-use crate::interface::{Ports, image, pixel_bytes};
-use crate::messages::{self, header};
+use crate::frames::Picture;
+use crate::interface::Ports;
+use crate::messages;
 use crate::settings::Settings;
+use crate::time::ros;
+use std::collections::VecDeque;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Condition, Event, Health, Interface, Level, NodeContext, NodeCore, RosTime, Sink, Steady, Times, resolve_name,
+    Condition, Event, Health, Interface, Level, NodeContext, NodeCore, Sink, Steady, Times, resolve_name,
 };
-use trench_msgs::msg::DiscArray;
-use trench_msgs::rosgraph_msgs::Clock;
-use trench_optics::{Overhead, Pose2};
-use trench_sim::camera::{Appearance, Renderer, Scene};
-use trench_sim::{Bed, Frame, Output, Random, Scan};
+use trench_optics::Overhead;
+use trench_sim::camera::{Appearance, Renderer};
+use trench_sim::{Bed, FaultKind, Frame, Output, Random, Scan};
 
 /// The one byte stream of the test bed.
 const STREAM: usize = 0;
 
-/// A frame this late is not published, s: after a pause of the process nobody wants what the camera saw meanwhile.
-const LATEST: f64 = 0.1;
-
 /// The test bed.
 pub struct Testbed {
     interface: Interface,
-    ports: Ports,
-    settings: Settings,
+    pub(crate) ports: Ports,
+    pub(crate) settings: Settings,
     /// The world, from the node's start on.
     bed: Option<Bed>,
     /// One a camera; none if nothing is rendered.
-    renderers: Vec<Renderer>,
-    random: Random,
-    published: u64,
-    dropped: u64,
+    pub(crate) renderers: Vec<Renderer>,
+    pub(crate) random: Random,
+    /// The last frame that came out: what a frozen camera shows.
+    pub(crate) last_frame: Option<Frame>,
+    /// Those that are to come out.
+    pub(crate) pictures: VecDeque<Picture>,
+    pub(crate) published: u64,
+    pub(crate) dropped: u64,
     contacts: u64,
     last_contact: String,
     health: Health,
@@ -52,6 +53,8 @@ impl Testbed {
             random: Random::new(settings.bed.seed, 2),
             renderers,
             bed: None,
+            last_frame: None,
+            pictures: VecDeque::new(),
             published: 0,
             dropped: 0,
             contacts: 0,
@@ -81,7 +84,7 @@ impl Testbed {
         while let Some(output) = bed.pop_output() {
             match output {
                 Output::Serial { bytes, .. } => sink.write_bytes(STREAM, &bytes),
-                Output::Frame(frame) => self.frame(at, &frame, sink),
+                Output::Frame(frame) => self.frame(at, &bed, frame, sink),
                 Output::Scan(scan) => self.scan(at, scan, sink),
                 Output::Contact(contact) => {
                     self.contacts += 1;
@@ -94,6 +97,8 @@ impl Testbed {
                 }
             }
         }
+        self.show(at, sink);
+        self.tell_faults(at, &bed);
         self.bed = Some(bed);
     }
 
@@ -106,60 +111,16 @@ impl Testbed {
         }
     }
 
-    fn frame(&mut self, at: Times, frame: &Frame, sink: &mut dyn Sink) {
-        let stamp = ros(at, frame.exposed_at);
-        for (robot, (name, truth)) in self.settings.robots.iter().zip(&frame.truth).enumerate() {
-            sink.publish(self.ports.truth + robot, &messages::odometry(stamp, name, truth));
+    /// Says what is wrong on purpose.
+    fn tell_faults(&mut self, at: Times, bed: &Bed) {
+        let names: Vec<&str> = bed.faults_at(at.steady.0).map(FaultKind::name).collect();
+        match names.is_empty() {
+            true => self.health.set("faults", Condition::Ok, "none"),
+            false => self.health.set("faults", Condition::Warn, names.join(", ")),
         }
-        if at.steady.seconds_since(Steady(frame.ready_at)) > LATEST {
-            self.dropped += 1;
-            return;
-        }
-        self.published += 1;
-        for camera in 0..self.settings.cameras.len() {
-            match self.renderers.get(camera) {
-                Some(renderer) => self.render(camera, renderer, stamp, frame, sink),
-                None => self.detect(camera, stamp, frame, sink),
-            }
-            let view = &self.settings.cameras[camera];
-            let info = messages::camera_info(stamp, &view.frame_id(), view.camera.lens());
-            sink.publish(self.ports.cameras[camera].info, &info);
-        }
-        if let Some(port) = self.ports.obstacles {
-            sink.publish(port, &messages::obstacles(stamp, &frame.obstacles));
-        }
-        if let Some(port) = self.ports.clock {
-            sink.publish(port, &Clock { clock: at.ros.into() });
-        }
-        self.diagnose();
     }
 
-    /// Paints the frame into the transport's own memory.
-    fn render(&self, camera: usize, renderer: &Renderer, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
-        let (lens, frame_id) = (renderer.camera().lens(), self.settings.cameras[camera].frame_id());
-        let (view, pixels) = (image(lens, &frame_id, stamp), pixel_bytes(lens));
-        let obstacles: Vec<_> = frame.obstacles.iter().map(|obstacle| obstacle.outline().clone()).collect();
-        let scene = Scene { robots: &frame.exposure, obstacles: &obstacles };
-        sink.publish_with(self.ports.cameras[camera].frames, view.encoded_len_with(pixels), &mut |out| {
-            let Some(range) = view.encode_around(pixels, out) else { return 0 };
-            let end = range.end;
-            match renderer.render(scene, frame.number, &mut out[range]) {
-                Ok(()) => end,
-                Err(_) => 0,
-            }
-        });
-    }
-
-    fn detect(&mut self, camera: usize, stamp: RosTime, frame: &Frame, sink: &mut dyn Sink) {
-        let Settings { cameras, pad, detection_noise, .. } = &self.settings;
-        let view = &cameras[camera];
-        let poses: Vec<Pose2> = frame.truth.iter().map(|truth| truth.pose).collect();
-        let discs = discs(&view.camera, pad, &poses, *detection_noise, &mut self.random);
-        let header = header(stamp, &view.frame_id());
-        sink.publish(self.ports.cameras[camera].frames, &DiscArray { header, discs });
-    }
-
-    fn diagnose(&mut self) {
+    pub(crate) fn diagnose(&mut self) {
         let condition = if self.dropped == 0 { Condition::Ok } else { Condition::Warn };
         self.health.set("camera", condition, "exposing");
         self.health.value("camera", "published", self.published);
@@ -170,12 +131,6 @@ impl Testbed {
         self.health.value("bodies", "contacts", self.contacts);
         self.health.set("base station", Condition::Ok, "listening");
     }
-}
-
-/// The ROS time of an instant of the monotonic clock.
-fn ros(at: Times, instant: u64) -> RosTime {
-    let ago = at.steady.0 as i64 - instant as i64;
-    RosTime(at.ros.0 - ago)
 }
 
 impl NodeCore for Testbed {
@@ -198,7 +153,7 @@ impl NodeCore for Testbed {
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        self.bed.as_ref().and_then(Bed::next_output).map(Steady)
+        self.bed.as_ref().and_then(Bed::next_output).map(Steady).into_iter().chain(self.next_picture()).min()
     }
 
     fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {

@@ -7,11 +7,14 @@
 
 mod core;
 mod detections;
+mod faults;
+mod frames;
 mod interface;
 mod messages;
 mod obstacles;
 mod radio;
 mod settings;
+mod time;
 
 pub use crate::core::Testbed;
 pub use interface::description;

@@ -1,5 +1,5 @@
 //! The test bed's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(testbed::description())
+    trench_runtime::run_alone(testbed::description())
 }

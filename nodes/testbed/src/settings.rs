@@ -1,12 +1,12 @@
 //! The test bed's parameters.
 
-use crate::{obstacles, radio};
+use crate::{faults, obstacles, radio};
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
 use trench_optics::{Camera, Overhead, Pad, Pose2};
 use trench_radio::{Key, MAX_ROBOTS};
 use trench_sim::camera::{Appearance, Background};
-use trench_sim::{BedSetup, Body, Field, Laser, Motor, Obstacle, Random, Shutter, scattered};
+use trench_sim::{BedSetup, Body, Faults, Field, Laser, Motor, Obstacle, Random, Shutter, scattered};
 
 /// What the test bed is told. All of it is fixed while it runs.
 #[derive(Debug, Clone)]
@@ -76,6 +76,7 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("pad.height", Pad::NOMINAL.height, "m, above the floor").range(0.0, 1.0),
         P::string("obstacles_file", "", "YAML list of obstacles; empty: none"),
         P::bool("publish_obstacles", true, "tell of them on /obstacles; false: lasers must find them"),
+        P::string("faults_file", "", "YAML list of what goes wrong, and when; empty: nothing"),
         P::string_list("laser.robots", &[], "names of the robots that carry a laser"),
         P::double("laser.rate", 10.0, "scans a second").range(0.1, 100.0),
         P::double("laser.range_min", 0.1, "m, what is nearer is not measured").range(0.0, 100.0),
@@ -139,6 +140,10 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
             Some(key.map_err(|error| parameters.error("key_file", error.to_string(), "write such a file"))?)
         }
     };
+    let faults = match parameters.str("faults_file")? {
+        "" => Faults::default(),
+        path => faults::parse(path, &files.read("faults_file", path)?, parameters.str_list("robots")?)?,
+    };
     let poses = poses(parameters, field, body, &obstacles, seed)?;
     let medium = radio::medium(parameters)?;
     let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;
@@ -159,6 +164,7 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
         laser: laser(parameters)?,
         baud: u32::try_from(parameters.usize("serial.baud")?).unwrap_or(u32::MAX),
         key,
+        faults,
     })
 }
 

@@ -1,0 +1,174 @@
+//! Faults that are put into a test bed on purpose, each for its time.
+
+use std::collections::BTreeSet;
+use trench_optics::Pose2;
+
+/// A fault with its time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// When it begins, ns after the bed's start.
+    pub from: u64,
+    /// When it is over, ns after the bed's start.
+    pub to: u64,
+    /// What is wrong.
+    pub kind: FaultKind,
+}
+
+/// What can be wrong. Robots are indices.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FaultKind {
+    /// Wheels turn as told and move the robot by this share of the way only: 0 is a wheel that is stuck.
+    Slip {
+        /// Whose wheels.
+        robots: Vec<usize>,
+        /// Shares of the left and the right wheel.
+        grip: [f64; 2],
+    },
+    /// Somebody carries a robot somewhere else, at once.
+    Carried {
+        /// Which.
+        robot: usize,
+        /// Where to.
+        pose: Pose2,
+    },
+    /// The battery has this voltage.
+    Battery {
+        /// Whose.
+        robots: Vec<usize>,
+        /// mV.
+        millivolts: u16,
+    },
+    /// The radios of these robots are off.
+    Silent {
+        /// Whose.
+        robots: Vec<usize>,
+    },
+    /// These robots do not hear each other; everybody else hears them.
+    Parted {
+        /// Which.
+        robots: Vec<usize>,
+    },
+    /// Everybody misses this share of the packets.
+    Loss {
+        /// 0 to 1.
+        loss: f64,
+    },
+    /// Something lies on the pads of these robots.
+    Covered {
+        /// Which.
+        robots: Vec<usize>,
+    },
+    /// Something is wrong with the camera.
+    Frames(FrameFault),
+}
+
+/// What can be wrong with frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrameFault {
+    /// None comes.
+    Stopped,
+    /// The last one comes again and again with fresh stamps.
+    Frozen,
+    /// They are black.
+    Black,
+    /// Their lower half is black.
+    Half,
+    /// They come so much later, ns.
+    Late(u64),
+    /// Only each so-manieth comes.
+    Every(u64),
+}
+
+impl FaultKind {
+    /// As files name it.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Slip { .. } => "slip",
+            Self::Carried { .. } => "carried",
+            Self::Battery { .. } => "battery",
+            Self::Silent { .. } => "silent",
+            Self::Parted { .. } => "parted",
+            Self::Loss { .. } => "loss",
+            Self::Covered { .. } => "covered",
+            Self::Frames(FrameFault::Stopped) => "stopped",
+            Self::Frames(FrameFault::Frozen) => "frozen",
+            Self::Frames(FrameFault::Black) => "black",
+            Self::Frames(FrameFault::Half) => "half",
+            Self::Frames(FrameFault::Late(_)) => "late",
+            Self::Frames(FrameFault::Every(_)) => "every",
+        }
+    }
+}
+
+/// All faults of a bed.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Faults {
+    faults: Vec<Fault>,
+}
+
+impl Faults {
+    /// These.
+    #[must_use]
+    pub fn new(faults: Vec<Fault>) -> Self {
+        Self { faults }
+    }
+
+    /// Those in force at `time` (ns after the start).
+    pub fn at(&self, time: u64) -> impl Iterator<Item = &FaultKind> {
+        self.faults.iter().filter(move |fault| (fault.from..fault.to).contains(&time)).map(|fault| &fault.kind)
+    }
+
+    /// When something begins or ends next after `time`, ns after the start.
+    pub(crate) fn next_change(&self, time: u64) -> Option<u64> {
+        self.faults.iter().flat_map(|fault| [fault.from, fault.to]).filter(|change| *change > time).min()
+    }
+
+    /// Robots that are carried away between `after` and `until`, that instant included.
+    pub(crate) fn carried(&self, after: Option<u64>, until: u64) -> impl Iterator<Item = (usize, Pose2)> {
+        let now = move |from: u64| after.is_none_or(|after| from > after) && from <= until;
+        self.faults.iter().filter_map(move |fault| match fault.kind {
+            FaultKind::Carried { robot, pose } if now(fault.from) => Some((robot, pose)),
+            _ => None,
+        })
+    }
+}
+
+/// Who does not hear whom.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Cuts {
+    pub(crate) silent: BTreeSet<usize>,
+    pub(crate) parted: Vec<BTreeSet<usize>>,
+}
+
+impl Cuts {
+    pub(crate) fn separates(&self, from: usize, to: usize) -> bool {
+        self.parted.iter().any(|group| group.contains(&from) && group.contains(&to))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_have_their_time() {
+        let covered = FaultKind::Covered { robots: vec![1] };
+        let pose = Pose2 { x: 1.0, y: 1.0, theta: 0.0 };
+        let carried = FaultKind::Carried { robot: 0, pose };
+        let faults = Faults::new(vec![
+            Fault { from: 10, to: 20, kind: covered.clone() },
+            Fault { from: 15, to: 30, kind: carried },
+        ]);
+        assert_eq!(faults.at(9).count(), 0);
+        assert_eq!(faults.at(10).collect::<Vec<_>>(), [&covered]);
+        assert_eq!(faults.at(20).count(), 1);
+        assert_eq!(faults.at(30).count(), 0);
+        assert_eq!(
+            [0, 10, 15, 20, 30].map(|time| faults.next_change(time)),
+            [Some(10), Some(15), Some(20), Some(30), None]
+        );
+        assert_eq!(faults.carried(Some(14), 15).collect::<Vec<_>>(), [(0, pose)]);
+        assert_eq!(faults.carried(Some(15), 40).count(), 0);
+    }
+}
