@@ -42,6 +42,11 @@ impl Checkpoint {
         fs::rename(&new, &self.path)
     }
 
+    /// Of the lock that keeps a second process of this node away.
+    pub(crate) fn lock_path(&self) -> PathBuf {
+        self.path.with_extension("lock")
+    }
+
     /// For messages.
     pub(crate) fn path(&self) -> &Path {
         &self.path

@@ -16,6 +16,8 @@ pub enum Exit {
     Configuration = 3,
     /// The network, shared memory or an endpoint cannot be opened.
     Transport = 4,
+    /// Another process on this host is this node already.
+    Taken = 5,
 }
 
 impl From<Exit> for ExitCode {

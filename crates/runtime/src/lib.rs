@@ -14,6 +14,7 @@ mod clock;
 mod exit;
 mod help;
 mod journals;
+mod lease;
 mod log;
 mod node;
 mod parameters;
@@ -27,5 +28,5 @@ mod topics;
 mod transport;
 
 pub use exit::Exit;
-pub use run::{run, run_with_arguments, run_without_journal};
+pub use run::{run, run_alone, run_with_arguments, run_without_journal};
 pub use transport::{RouterError, TransportError, forget_shared_memory, route};

@@ -5,6 +5,7 @@ use crate::clock::Clock;
 use crate::exit::Exit;
 use crate::help;
 use crate::journals::journals;
+use crate::lease::{Lease, Taken};
 use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
 use crate::parameters::ParameterServer;
@@ -35,6 +36,8 @@ enum RunError {
     Build(#[from] BuildError),
     #[error(transparent)]
     Transport(#[from] TransportError),
+    #[error(transparent)]
+    Taken(#[from] Taken),
     #[error("the event loop failed: {0}")]
     System(#[from] io::Error),
 }
@@ -45,6 +48,7 @@ impl RunError {
             Self::Usage(_) => Exit::Usage,
             Self::Config(_) | Self::Build(BuildError::Start(_)) => Exit::Configuration,
             Self::Transport(_) => Exit::Transport,
+            Self::Taken(_) => Exit::Taken,
             Self::System(_) | Self::Build(BuildError::Journal(_)) => Exit::System,
         }
     }
@@ -55,28 +59,35 @@ impl RunError {
 /// (`TRENCH_JOURNAL_DIR`), the node keeps one.
 #[must_use]
 pub fn run(description: NodeDescription) -> ExitCode {
-    run_with(description, journals(|name| env::var_os(name)))
+    run_with(description, journals(|name| env::var_os(name)), false)
+}
+
+/// As [`run`], for nodes of which two would work against each other: a second process of this node in the same domain of
+/// this host is refused.
+#[must_use]
+pub fn run_alone(description: NodeDescription) -> ExitCode {
+    run_with(description, journals(|name| env::var_os(name)), true)
 }
 
 /// As [`run`], for nodes that a journal could not replay because their cores are not pure: they read or write files or
 /// devices by themselves.
 #[must_use]
 pub fn run_without_journal(description: NodeDescription) -> ExitCode {
-    run_with(description, None)
+    run_with(description, None, false)
 }
 
 /// As [`run_without_journal`] with this command line instead of the process's own; gives the exit code. It returns, so
 /// that a program can run a node once more.
 #[must_use]
 pub fn run_with_arguments(description: NodeDescription, arguments: impl Iterator<Item = String>) -> u8 {
-    try_run(description, arguments, None).unwrap_or_else(|error| {
+    try_run(description, arguments, None, false).unwrap_or_else(|error| {
         eprintln!("{}: {error}", description.name);
         error.exit() as u8
     })
 }
 
-fn run_with(description: NodeDescription, journals: Option<Journals>) -> ExitCode {
-    match try_run(description, env::args().skip(1), journals.as_ref()) {
+fn run_with(description: NodeDescription, journals: Option<Journals>, is_single: bool) -> ExitCode {
+    match try_run(description, env::args().skip(1), journals.as_ref(), is_single) {
         Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("{}: {error}", description.name);
@@ -89,6 +100,7 @@ fn try_run(
     description: NodeDescription,
     command_line: impl Iterator<Item = String>,
     journals: Option<&Journals>,
+    is_single: bool,
 ) -> Result<u8, RunError> {
     let arguments = Arguments::parse(command_line)?;
     let mut descriptors = (description.parameters)();
@@ -107,19 +119,23 @@ fn try_run(
     let mut prepared = Vec::new();
     let nodes = arguments.of_each_node(description.name);
     for arguments in &nodes {
-        prepared.push(prepare(description, arguments, &descriptors, domain, journals)?);
+        prepared.push(prepare(description, arguments, &descriptors, domain, (journals, is_single))?);
     }
     if prepared.len() > 1 {
         raise_file_limit();
     }
     let mut process = Process::new(backend, domain)?;
-    for Prepared { core, names, equipment } in prepared {
+    let mut leases = Vec::new();
+    for Prepared { core, names, equipment, lease } in prepared {
+        leases.push(lease);
         let index = process.nodes.len();
         let node = connect(core, index, &names, equipment, &mut process.connections())?;
         process.nodes.push(node);
     }
     process.network.announce()?;
-    Ok(process.run()?)
+    let code = process.run()?;
+    drop(leases);
+    Ok(code)
 }
 
 /// A node that is not connected yet.
@@ -127,6 +143,8 @@ struct Prepared<'a> {
     core: Box<dyn NodeCore>,
     names: Names<'a>,
     equipment: Equipment,
+    /// Held for as long as the process lives, by nodes of which there is one.
+    lease: Option<Lease>,
 }
 
 fn prepare<'a>(
@@ -134,7 +152,7 @@ fn prepare<'a>(
     arguments: &'a Arguments,
     descriptors: &[ParameterDescriptor],
     domain: u16,
-    journals: Option<&Journals>,
+    (journals, is_single): (Option<&Journals>, bool),
 ) -> Result<Prepared<'a>, RunError> {
     let names = Names::new(&arguments.remaps, description.name);
     let full = full_name(&names.namespace, &names.node);
@@ -142,6 +160,7 @@ fn prepare<'a>(
         .resolve_parameters(&names, descriptors, |path| Disk.read("--params-file", path))
         .map_err(RunError::Config)?;
     let checkpoint = Checkpoint::of(&full, domain);
+    let lease = if is_single { Some(Lease::take(&checkpoint.lock_path(), &full, domain)?) } else { None };
     let core = build(description, &names, &checkpoint, &parameters, journals)?;
     let use_sim_time = parameters.bool(USE_SIM_TIME).map_err(|error| RunError::Config(vec![error]))?;
     let reference = parameters.str(CLOCK_REFERENCE).map_err(|error| RunError::Config(vec![error]))?.to_owned();
@@ -164,7 +183,7 @@ fn prepare<'a>(
         publish_over_network,
         parameters: ParameterServer::new(full, descriptors.to_vec(), parameters),
     };
-    Ok(Prepared { core, names, equipment })
+    Ok(Prepared { core, names, equipment, lease })
 }
 
 /// Lets the process open as many files as it may: each topic and service of each node needs some.

@@ -4,19 +4,22 @@ use crate::inputs::{Heard, Hull, point};
 use crate::refusal::Refusal;
 use crate::segments::Segments;
 use crate::settings::{Settings, check_gains, descriptors};
-use crate::tick::{Command, Tick};
+use crate::tick::{Command, Tick, unseen};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
-    Sink, StartError, Steady, Subscribe, Times, resolve_name,
+    Advertise, Condition, Event, Files, Health, Interface, Level, Local, Master, NodeContext, NodeCore,
+    NodeDescription, NotMaster, Qos, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
-use trench_msgs::msg::{ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, RunState, TeamState};
+use trench_msgs::msg::{
+    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, RunState, TeamState,
+};
 use trench_msgs::std_msgs::{Bool, Header};
 
 const TEAM_STATE: usize = 0;
@@ -26,8 +29,9 @@ const FORMATION: usize = 3;
 const RUN_STATE: usize = 4;
 const APPARENT_OBSTACLES: usize = 5;
 const EMERGENCY_STOP: usize = 6;
+const LINK: usize = 7;
 /// Leader states of the others follow from here on.
-const OTHERS: usize = 7;
+const OTHERS: usize = 8;
 
 const CMD_VEL: usize = 0;
 const LEADER_STATE: usize = 1;
@@ -36,6 +40,9 @@ const DIAGNOSTICS: usize = 2;
 /// Room for one small message in shared memory.
 const SMALL: Local = Local::SharedMemory { max_len: 1024 };
 
+/// Room for a leader state that names some hundred robots.
+const STATE: Local = Local::SharedMemory { max_len: 8192 };
+
 /// Why a message was dropped.
 #[derive(Debug, thiserror::Error)]
 enum Dropped {
@@ -43,6 +50,8 @@ enum Dropped {
     Cdr(#[from] CdrError),
     #[error(transparent)]
     Refused(#[from] Refusal),
+    #[error(transparent)]
+    NotMaster(#[from] NotMaster),
 }
 
 /// One robot's controller.
@@ -50,6 +59,8 @@ pub struct FormationController {
     interface: Interface,
     tick: Tick,
     others: Vec<String>,
+    /// Who writes the topics that come again and again, by port.
+    masters: BTreeMap<usize, Master>,
     health: Health,
     wakeup: Option<Steady>,
     bad_messages: u64,
@@ -77,6 +88,7 @@ fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Resul
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
         tick: Tick::new(settings),
         others,
+        masters: BTreeMap::new(),
         wakeup: None,
         bad_messages: 0,
         warning,
@@ -102,6 +114,7 @@ fn interface(settings: &Settings, others: &[String]) -> Interface {
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE).without_waking(),
         Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
+        Subscribe::to::<LinkStatus>(format!("/{}/link", settings.robot), Qos::RELIABLE).without_waking(),
     ];
     let leader_state =
         |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE).without_waking();
@@ -117,7 +130,7 @@ fn interface(settings: &Settings, others: &[String]) -> Interface {
         subscriptions,
         publications: vec![
             command,
-            Advertise::of::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE, SMALL),
+            Advertise::of::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE, STATE),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
         ],
         ..Interface::default()
@@ -125,7 +138,10 @@ fn interface(settings: &Settings, others: &[String]) -> Interface {
 }
 
 impl FormationController {
-    fn take(&mut self, at: Times, port: usize, cdr: &[u8]) -> Result<(), Dropped> {
+    fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) -> Result<(), Dropped> {
+        if matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES) || port >= OTHERS {
+            self.masters.entry(port).or_default().admit(source, at.steady)?;
+        }
         let inputs = &mut self.tick.inputs;
         match port {
             TEAM_STATE => inputs.take_team(at, TeamState::decode(cdr)?)?,
@@ -138,9 +154,16 @@ impl FormationController {
                 inputs.obstacles = Some(Heard { at: at.steady, message });
             }
             EMERGENCY_STOP => inputs.emergency_stop = Bool::decode(cdr)?.data,
+            LINK => {
+                let link = LinkStatus::decode(cdr)?;
+                if self.tick.settings.team_link_by_radio && link.up {
+                    self.tick.team_link.report(at.steady, link.hears);
+                }
+            }
             _ => {
                 let state = LeaderState::decode(cdr)?;
-                if let Some(name) = self.others.get(port - OTHERS) {
+                let carried = |name: &&String| self.tick.team_link.carries(at.steady, name);
+                if let Some(name) = self.others.get(port - OTHERS).filter(carried) {
                     inputs.take_other(at, name, state)?;
                 }
             }
@@ -159,7 +182,8 @@ impl FormationController {
     fn drive(&mut self, at: Times, sink: &mut dyn Sink) {
         let command = self.tick.run(at);
         self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog));
-        self.send(&command, sink);
+        self.send(at, &command, sink);
+        self.tell_link(&command);
         let (condition, text) = match &command.hold {
             None => (Condition::Ok, "driving".to_owned()),
             Some(hold) => (hold.condition(), hold.to_string()),
@@ -168,23 +192,40 @@ impl FormationController {
         self.health.value("motion", "limits", command.limits);
     }
 
-    fn send(&mut self, command: &Command, sink: &mut dyn Sink) {
+    /// Says how the team link is, under laws that need it.
+    fn tell_link(&mut self, command: &Command) {
+        if !self.tick.settings.dynamic.as_ref().is_some_and(|dynamic| dynamic.law.is_chained()) {
+            return;
+        }
+        let (condition, text) = match command.beyond_reach {
+            _ if command.lost => {
+                (Condition::Warn, "hears nobody of its queue: along the segment to the team goal (6.2.1)".to_owned())
+            }
+            Some(apart) => (Condition::Warn, format!("the robot ahead is {apart:.2} m away, beyond rho_bar")),
+            None => (Condition::Ok, "in order".to_owned()),
+        };
+        self.health.set("team link", condition, text);
+    }
+
+    fn send(&mut self, at: Times, command: &Command, sink: &mut dyn Sink) {
         let mut twist = Twist::default();
         (twist.linear.x, twist.angular.z) = (command.twist.v, command.twist.omega);
         if self.tick.settings.stamped {
             let frame_id = format!("{}/base_link", self.tick.settings.robot);
-            let header = Header { stamp: command.exposure.into(), frame_id };
+            // The exposure in which the robot was seen: the bridge keeps it from acting on older information.
+            let unseen = self.tick.inputs.robot(&self.tick.settings.robot).map_or(0.0, unseen);
+            let header = Header { stamp: command.exposure.plus_seconds(-unseen).into(), frame_id };
             sink.publish(CMD_VEL, &TwistStamped { header, twist });
         } else {
             sink.publish(CMD_VEL, &twist);
         }
         if command.pose.is_some() {
-            let message = self.leader_state(command);
+            let message = self.leader_state(at, command);
             sink.publish(LEADER_STATE, &message);
         }
     }
 
-    fn leader_state(&self, command: &Command) -> LeaderState {
+    fn leader_state(&self, at: Times, command: &Command) -> LeaderState {
         let (settings, inputs) = (&self.tick.settings, &self.tick.inputs);
         let state = inputs.robot(&settings.robot);
         let position = state.map_or(Vector2::zeros(), |state| Vector2::new(state.x, state.y));
@@ -197,6 +238,7 @@ impl FormationController {
         let mut message = LeaderState {
             header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
             robot: settings.robot.clone(),
+            hears: inputs.hears(at.steady, settings.leader_state_age_limit).map(str::to_owned).collect(),
             position: point(position),
             theta: state.map_or(0.0, |state| state.theta),
             velocity: point(velocity),
@@ -243,14 +285,14 @@ impl NodeCore for FormationController {
         self.warn(sink);
         match event {
             Event::Started => self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog)),
-            Event::Message { port, cdr, .. } => match self.take(at, port, cdr) {
+            Event::Message { port, source, cdr } => match self.take(at, port, source, cdr) {
                 // The team state is the tick (invariant 10); an emergency stop does not wait for it.
                 Ok(()) if port == TEAM_STATE || port == EMERGENCY_STOP => self.drive(at, sink),
                 Ok(()) => {}
                 Err(error) => self.dropped(&error, port, sink),
             },
             Event::Wakeup => self.drive(at, sink),
-            Event::Shutdown => self.send(&self.tick.rest(at), sink),
+            Event::Shutdown => self.send(at, &self.tick.rest(at), sink),
             _ => {}
         }
         self.health.publish(at, DIAGNOSTICS, sink);

@@ -153,6 +153,13 @@ impl Inputs {
         self.team.as_ref()?.message.robots.iter().find(|state| state.name == robot)
     }
 
+    /// Robots that are seen but have no place: they have died, or wait to join. To the others they are obstacles.
+    pub(crate) fn strangers(&self, robot: &str) -> impl Iterator<Item = &RobotState> {
+        let members = self.assignment.as_ref().map(|assignment| &assignment.members);
+        let seen = self.team.iter().flat_map(|team| &team.message.robots).filter(move |other| other.name != robot);
+        seen.filter(move |other| members.is_some_and(|members| members.iter().all(|member| member.robot != other.name)))
+    }
+
     /// The place of `robot`, if the formation that it is in is known.
     pub(crate) fn member(&self, robot: &str) -> Option<&Member> {
         let (assignment, segments) = (self.assignment.as_ref()?, self.segments.as_ref()?);
@@ -165,6 +172,19 @@ impl Inputs {
         let (queue, rank) = (member.queue, member.rank);
         let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
         members.filter(move |other| other.queue == queue && other.rank < rank)
+    }
+
+    /// The robots whose leader states arrived within `age_limit` seconds, in order of name.
+    pub(crate) fn hears(&self, now: Steady, age_limit: f64) -> impl Iterator<Item = &str> {
+        let fresh = move |heard: &Heard<LeaderState>| now.seconds_since(heard.at) <= age_limit;
+        self.others.iter().filter(move |(_, heard)| fresh(heard)).map(|(name, _)| name.as_str())
+    }
+
+    /// Whether one of the other robots of the queue of `member` is heard; a robot that has none is not missing any.
+    pub(crate) fn hears_of_queue(&self, member: &Member, now: Steady, age_limit: f64) -> bool {
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        let mut mates = members.filter(|other| other.queue == member.queue && other.robot != member.robot).peekable();
+        mates.peek().is_none() || mates.any(|mate| self.hears(now, age_limit).any(|name| name == mate.robot))
     }
 
     /// A robot ahead at `time`: what it said last, going on as it moved; none once it has been silent for `age_limit` seconds.

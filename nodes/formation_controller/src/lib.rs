@@ -8,6 +8,7 @@
 //! | prediction | [`Predictor`] | commands sent since the exposure |
 //! | law | [`Law`] | (3.9), (3.10), (3.13), (4.4), (3.13) with feed-forward |
 //! | dynamic laws | `dynamic`, `steer` | (5.1)-(5.3), (6.1), (7.4), (7.13), driven through 3.1.1 |
+//! | team link | `team_link`, `recovery` | Remarks 6.2.1, 8.4.1 |
 //! | motors | `trench_formation::kinematics::{saturate, Ramp}` | 4.5.2, 4.6.3 |
 //! | safety | `trench_formation::safety` | invariant 8 of docs/ARCHITECTURE.md |
 
@@ -18,11 +19,13 @@ mod hold;
 mod inputs;
 mod law;
 mod predictor;
+mod recovery;
 mod refusal;
 mod safe;
 mod segments;
 mod settings;
 mod steer;
+mod team_link;
 mod tick;
 
 pub use crate::core::{FormationController, description};

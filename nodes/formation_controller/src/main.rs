@@ -1,5 +1,5 @@
 //! The controller's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(formation_controller::description())
+    trench_runtime::run_alone(formation_controller::description())
 }

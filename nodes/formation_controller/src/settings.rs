@@ -23,9 +23,14 @@ pub(crate) struct Settings {
     pub(crate) ramp: Ramp,
     pub(crate) command_delay: f64,
     pub(crate) pose_age_limit: f64,
+    pub(crate) information_age_limit: f64,
     pub(crate) goal_age_limit: f64,
     pub(crate) obstacle_age_limit: f64,
     pub(crate) leader_state_age_limit: f64,
+    /// Silence of the whole queue after which the robot looks for it, s.
+    pub(crate) team_age_limit: f64,
+    /// Whether the radio's reach decides whose leader states count.
+    pub(crate) team_link_by_radio: bool,
     pub(crate) watchdog: f64,
     pub(crate) needs_mapper: bool,
     pub(crate) safety_enabled: bool,
@@ -66,10 +71,20 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::double("wheels.acceleration", 0.45, "m/s^2, a wheel's largest acceleration above it").range(0.01, 100.0),
         P::double("delay.command", 0.012, "s, from sending a command to the wheels obeying it").range(0.0, 1.0),
         P::double("age.pose", 0.12, "s, the oldest pose that may drive the robot").range(0.001, 10.0),
+        P::double("age.information", 0.25, "s, since the robot was seen last: it is carried forward no longer")
+            .range(0.001, 10.0),
         P::double("age.goal", 0.5, "s, silence of /goals after which the robot stops").range(0.001, 10.0),
         P::double("age.obstacles", 0.5, "s, silence of the mapper after which the robot stops").range(0.001, 10.0),
         P::double("age.leader_state", 0.3, "s, silence after which another robot counts as an obstacle")
             .range(0.001, 10.0),
+        P::double("age.team", 1.0, "s, silence of its whole queue after which a follower looks for it (Remark 6.2.1)")
+            .range(0.001, 60.0),
+        P::string(
+            "team_link",
+            "radio",
+            "radio: leader states count within the robot's radio reach; network: if they come",
+        )
+        .read_only(),
         P::double("watchdog", 0.05, "s, silence of /team_state after which the last one is used again")
             .range(0.001, 1.0),
         P::bool("safety.enabled", true, "pass commands through the safety filter; false only on an ideal bed"),
@@ -118,9 +133,12 @@ impl Settings {
             ramp: Ramp { pull_in_speed: double("wheels.pull_in_speed")?, acceleration: double("wheels.acceleration")? },
             command_delay: double("delay.command")?,
             pose_age_limit: double("age.pose")?,
+            information_age_limit: double("age.information")?,
             goal_age_limit: double("age.goal")?,
             obstacle_age_limit: double("age.obstacles")?,
             leader_state_age_limit: double("age.leader_state")?,
+            team_age_limit: double("age.team")?,
+            team_link_by_radio: by_radio(parameters)?,
             watchdog: double("watchdog")?,
             needs_mapper: parameters.bool("safety.needs_mapper")?,
             safety_enabled: parameters.bool("safety.enabled")?,
@@ -156,6 +174,14 @@ fn law(parameters: &Parameters, dead_band: DeadBand) -> Result<Law, ConfigError>
         _ => return Err(parameters.error("law", "is no law", LAWS)),
     };
     Ok(law)
+}
+
+fn by_radio(parameters: &Parameters) -> Result<bool, ConfigError> {
+    match parameters.str("team_link")? {
+        "radio" => Ok(true),
+        "network" => Ok(false),
+        _ => Err(parameters.error("team_link", "is no team link", "write radio or network")),
+    }
 }
 
 fn safety(parameters: &Parameters) -> Result<SafetyFilter, ConfigError> {

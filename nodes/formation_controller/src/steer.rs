@@ -32,20 +32,25 @@ impl Tick {
             position: ahead.position() + settings.look_ahead * ahead.heading(),
             velocity: self.reference.unwrap_or_else(|| self.told(settings, ahead, acts)),
         };
-        let others = match self.robots_ahead(settings, &member, (at, acts)) {
+        // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
+        let follows = !(member.leader.is_empty() || command.lost);
+        let rank = if follows { member.rank } else { 1 };
+        let ahead_in_chain = if follows { self.robots_ahead(settings, &member, (at, acts)) } else { Ok(Vec::new()) };
+        let others = match ahead_in_chain {
             Ok(others) => others,
             Err(hold) => return self.slow_down(settings, robot, ahead, duration, hold, command),
         };
+        let apart = others.last().map(|leader| (leader.state.position - robot.position).norm());
+        command.beyond_reach = apart.filter(|apart| *apart > settings.zoning.radii().rho_bar);
         let segments = self.inputs.segments.clone().ok_or(Hold::NoPlace)?;
         let segment = segments.curve(member.queue);
-        if settings.law.seeks(member.rank) && segment.is_none() {
+        if settings.law.seeks(rank) && segment.is_none() {
             return Err(Hold::NoPlace);
         }
         let hulls = self.hulls();
         let fragments =
             segment.map_or_else(Fragments::default, |curve| self.fragments(settings, curve, &frame, (&hulls, &others)));
-        let around =
-            Around { goal, frame, segment, rank: member.rank, ahead: &others, hulls: &hulls, fragments: &fragments };
+        let around = Around { goal, frame, segment, rank, ahead: &others, hulls: &hulls, fragments: &fragments };
         let driven = self.agent.drive(settings, &around, robot, duration);
         if driven.cut {
             command.limits |= LeaderState::LIMIT_WHEELS;
@@ -140,16 +145,19 @@ impl Tick {
         })
     }
 
-    /// The apparent obstacles as the law sees them.
+    /// The apparent obstacles as the law sees them, and the robots that have no part in the formation.
     fn hulls(&self) -> Vec<MovingHull> {
         let heard = self.inputs.obstacles.iter().flat_map(|heard| &heard.message);
-        heard
-            .filter_map(|hull| {
-                // What is no hull stops the robot in the safety filter.
-                let shape = Shape::new(&hull.points, hull.radius).ok()?;
-                Some(MovingHull { shape, velocity: hull.velocity })
-            })
-            .collect()
+        let hulls = heard.filter_map(|hull| {
+            // What is no hull stops the robot in the safety filter.
+            let shape = Shape::new(&hull.points, hull.radius).ok()?;
+            Some(MovingHull { shape, velocity: hull.velocity })
+        });
+        let strangers = self.inputs.strangers(&self.settings.robot).filter_map(|stranger| {
+            let shape = Shape::new(&[Vector2::new(stranger.x, stranger.y)], self.settings.body_radius).ok()?;
+            Some(MovingHull { shape, velocity: Vector2::zeros() })
+        });
+        hulls.chain(strangers).collect()
     }
 
     /// Steps (1) to (3) of 7.5.2 for this robot: hulls, and the robots ahead of it where they count, take parts of its

@@ -4,6 +4,7 @@ use crate::dynamic::Agent;
 use crate::hold::Hold;
 use crate::inputs::Inputs;
 use crate::settings::Settings;
+use crate::team_link::TeamLink;
 use crate::{Deviation, Predictor};
 use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
@@ -44,6 +45,10 @@ pub(crate) struct Command {
     pub(crate) hold: Option<Hold>,
     pub(crate) pose: Option<Pose>,
     pub(crate) wanted: Option<Wanted>,
+    /// Whether the robot is looking for its team (Remark 6.2.1).
+    pub(crate) lost: bool,
+    /// How far the leader is where that is beyond rho_bar, m.
+    pub(crate) beyond_reach: Option<f64>,
 }
 
 /// The state of a controller between ticks.
@@ -51,6 +56,7 @@ pub(crate) struct Tick {
     pub(crate) settings: Settings,
     pub(crate) inputs: Inputs,
     pub(crate) predictor: Predictor,
+    pub(crate) team_link: TeamLink,
     deviation: Deviation,
     holding: bool,
     last: Option<(RosTime, Wheels)>,
@@ -68,6 +74,7 @@ impl Tick {
             settings,
             inputs: Inputs::default(),
             predictor: Predictor::default(),
+            team_link: TeamLink::default(),
             deviation: Deviation::new(speed, turn, patience),
             holding: false,
             last: None,
@@ -84,6 +91,10 @@ impl Tick {
         match self.drive(at, acts, &mut command) {
             Ok(()) => {}
             Err(hold) => {
+                // Who waits for its leader may have lost its team; who rests for another reason is not looking for it.
+                if !matches!(hold, Hold::NoLeader(_)) {
+                    self.team_link.rest();
+                }
                 (command.twist, command.hold) = (Twist::ZERO, Some(hold));
                 (self.holding, self.reference) = (false, None);
             }
@@ -103,6 +114,8 @@ impl Tick {
             hold: None,
             pose: self.inputs.robot(&self.settings.robot).map(pose_of),
             wanted: None,
+            lost: false,
+            beyond_reach: None,
         }
     }
 
@@ -116,8 +129,10 @@ impl Tick {
             return Err(Hold::NotRunning);
         }
         let ahead = self.predictor.predict(pose_of(&state), command.exposure, acts);
-        let goal_age_limit = self.settings.goal_age_limit;
-        let goal = self.inputs.goal(&self.settings.robot, acts, at.steady, goal_age_limit).ok_or(Hold::NoGoal)?;
+        let recovery = self.recovery(at, acts, ahead);
+        command.lost = recovery.is_some();
+        let assigned = || self.inputs.goal(&self.settings.robot, acts, at.steady, self.settings.goal_age_limit);
+        let goal = recovery.map(|point| (point, Goal::PHASE_APPROACH)).or_else(assigned).ok_or(Hold::NoGoal)?;
         let wanted = match self.settings.dynamic.clone() {
             None => self.track(ahead, goal),
             Some(dynamic) => self.steer(&dynamic, (at, acts), ahead, goal.0, command)?,
@@ -159,6 +174,11 @@ impl Tick {
         // Both clocks: the stamp tells how old the pose was on arrival, the monotonic clock how long it has lain here.
         let lain = self.inputs.team.as_ref().map_or(f64::INFINITY, |team| at.steady.seconds_since(team.at));
         let stamped = at.ros.seconds_since(command.exposure);
+        let unseen = unseen(state);
+        if stamped.max(lain) + unseen > self.settings.information_age_limit {
+            command.limits |= LeaderState::LIMIT_STALE;
+            return Err(Hold::OldPose(stamped.max(lain) + unseen));
+        }
         if stamped.max(lain) > self.settings.pose_age_limit || stamped < -CLOCK_ERROR {
             command.limits |= LeaderState::LIMIT_STALE;
             return Err(Hold::OldPose(stamped));
@@ -193,6 +213,11 @@ impl Tick {
         let interval = acts.seconds_since(before).clamp(0.0, 0.1);
         self.settings.ramp.limit(current, wanted, interval)
     }
+}
+
+/// Seconds since a robot was seen, at the exposure.
+pub(crate) fn unseen(state: &RobotState) -> f64 {
+    (f64::from(state.unseen.sec) + 1e-9 * f64::from(state.unseen.nanosec)).max(0.0)
 }
 
 /// The pose of a team state's robot.

@@ -9,8 +9,8 @@ use trench_msgs::Encode;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, Member, Point2, Queue, RobotState,
-    RunState, Segment, TeamState,
+    ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState, LinkStatus, Member, Point2, Queue,
+    RobotState, RunState, Segment, TeamState,
 };
 use trench_msgs::std_msgs::Bool;
 
@@ -238,6 +238,22 @@ fn a_refused_change_leaves_the_old_gains_in_force() {
     assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
 }
 
+#[test]
+fn what_is_carried_forward_drives_nobody_for_long() {
+    let driven = |unseen: u32| {
+        let mut bench = Bench::new();
+        bench.running();
+        let mut team = bench.team(RobotState::STATUS_PREDICTED, 0.04);
+        team.robots[0].unseen.nanosec = unseen;
+        let command = bench.tick(&team);
+        let age = RosTime(0).plus_seconds(100.0).seconds_since(RosTime::from(&command.header.stamp));
+        (command.twist.linear.x > 0.0, (1e3 * age).round())
+    };
+    assert_eq!(driven(0), (true, 40.0));
+    assert_eq!(driven(200_000_000), (true, 240.0));
+    assert_eq!(driven(220_000_000), (false, 260.0));
+}
+
 /// robot1 follows robot2 in a chain on the segment y = 0.9, in the frame of the map.
 fn follower() -> Bench {
     let core = make(&[("team", "[robot1, robot2]"), ("law", "chain")]).unwrap();
@@ -268,19 +284,94 @@ fn leader_at(bench: &Bench, x: f64, epoch: u64) -> LeaderState {
 #[test]
 fn a_follower_goes_after_its_leader_and_rests_when_that_is_silent() {
     let mut bench = follower();
-    let mut fastest = 0.0_f64;
-    for tick in 0..90 {
-        bench.running();
-        if tick < 30 {
-            bench.send("/robot2/leader_state", &leader_at(&bench, 1.9, 4));
-        }
-        let v = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
-        fastest = fastest.max(v);
-        bench.seconds += 1.0 / 30.0;
-    }
+    let fastest = bench.drive(30, Some(1.9));
     assert!(fastest > 0.05, "{fastest}");
+    bench.drive(30, None);
     assert_eq!(bench.last_command().twist.linear.x, 0.0);
     assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+}
+
+impl Bench {
+    /// So many ticks of a follower, with its leader at `leader` (m along the segment) if it speaks; gives the highest speed.
+    fn drive(&mut self, ticks: u32, leader: Option<f64>) -> f64 {
+        let mut fastest = 0.0_f64;
+        for _ in 0..ticks {
+            self.running();
+            if let Some(x) = leader {
+                self.send("/robot2/leader_state", &leader_at(self, x, 4));
+            }
+            let v = self.tick(&self.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+            fastest = fastest.max(v);
+            self.seconds += 1.0 / 30.0;
+        }
+        fastest
+    }
+}
+
+#[test]
+fn a_follower_that_hears_nobody_goes_along_the_segment_until_it_does() {
+    let mut bench = follower();
+    bench.drive(30, Some(1.9));
+    bench.drive(75, None);
+    assert!(bench.last_command().twist.linear.x > 0.1, "as fast as it may: {:?}", bench.last_command());
+    assert!(bench.says().contains("hears nobody of its queue"), "{}", bench.says());
+    bench.drive(18, Some(1.9));
+    assert!(!bench.says().contains("hears nobody of its queue"), "{}", bench.says());
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert_eq!(state.hears, ["robot2"]);
+}
+
+#[test]
+fn a_follower_without_a_leader_is_drawn_to_its_goal() {
+    let mut bench = follower();
+    let member = |robot: &str, rank| Member { robot: robot.to_owned(), rank, ..Default::default() };
+    let members = vec![member("robot2", 1), member("robot1", 2)];
+    bench.send("/assignment", &Assignment { epoch: 5, formation_hash: 7, members, ..Default::default() });
+    bench.drive(30, None);
+    assert!(bench.last_command().twist.linear.x > 0.05, "{}", bench.says());
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert!((state.goal.x - 1.5).abs() < 0.01, "{state:?}");
+}
+
+#[test]
+fn leader_states_beyond_the_radio_s_reach_are_not_heard() {
+    let mut bench = follower();
+    let link = |hears: &[&str]| LinkStatus {
+        up: true,
+        hears: hears.iter().map(|name| (*name).to_owned()).collect(),
+        ..Default::default()
+    };
+    for _ in 0..30 {
+        bench.send("/robot1/link", &link(&["robot3"]));
+        bench.drive(1, Some(1.9));
+    }
+    assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+    for _ in 0..30 {
+        bench.send("/robot1/link", &link(&["robot2"]));
+        bench.drive(1, Some(1.9));
+    }
+    assert!(bench.says().contains("driving"), "{}", bench.says());
+    let core = make(&[("team", "[robot1, robot2]"), ("law", "chain"), ("team_link", "network")]).unwrap();
+    let mut bench = Bench { core, out: Outbox::default(), seconds: 100.0 };
+    bench.send("/robot1/link", &link(&[]));
+    bench.drive(1, Some(1.9));
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert_eq!(state.hears, ["robot2"], "on the robots' own hosts what comes is heard");
+}
+
+#[test]
+fn a_second_publisher_waits_until_the_first_is_silent() {
+    let mut bench = follower();
+    bench.drive(10, Some(1.9));
+    let mut team = bench.team(RobotState::STATUS_TRACKED, 0.0);
+    team.robots[0].x = 0.3;
+    let cdr = team.to_cdr();
+    let port = bench.core.interface().subscriptions.iter().position(|topic| topic.topic == "/team_state").unwrap();
+    let foreign = Event::Message { port, source: From { gid: [9; 16], sequence: 1 }, cdr: &cdr };
+    bench.out.take();
+    bench.core.handle(bench.times(), foreign, &mut bench.out);
+    assert!(bench.out.published::<TwistStamped>(bench.port("/robot1/cmd_vel")).is_empty(), "no tick of its own");
+    assert!(bench.says().contains("another publisher writes this topic"), "{}", bench.says());
 }
 
 #[test]

@@ -4,12 +4,18 @@ use crate::Carrier;
 use crate::checkpoint::{self, Checkpoint, FRESH};
 use crate::core::{ASSIGNMENT, FORMATION, LeaderAssignment, RUN_STATE};
 use crate::held::Held;
+use crate::members;
 use crate::organise::{Seated, organise};
 use trench_core::{Condition, Level, RosTime, Sink, Times};
 use trench_formation::Vector2;
 use trench_msgs::msg::{Assignment, RobotState, RunState};
 use trench_msgs::std_msgs::Header;
 use trench_plan::{Frame, plan_from_message};
+
+/// The number of an assignment that replaces `old`.
+pub(crate) fn epoch_after(old: Option<&Assignment>) -> u64 {
+    old.map_or(0, |old| old.epoch) + 1
+}
 
 impl LeaderAssignment {
     /// Takes up the run of an earlier life of the process, one that died just now, and says what is in force.
@@ -25,11 +31,9 @@ impl LeaderAssignment {
     }
 
     fn resume(&mut self, at: Times) -> Option<()> {
-        let Checkpoint { written, run, assignment, formation, configured } = self.checkpoint.take()?;
+        let Checkpoint { written, run, assignment, formation, robots, configured } = self.checkpoint.take()?;
         let assignment = assignment?;
         let fresh = (0.0..=FRESH).contains(&at.ros.seconds_since(written));
-        let mut robots: Vec<String> = assignment.members.iter().map(|member| member.robot.clone()).collect();
-        robots.sort();
         let known = robots.iter().all(|robot| self.settings.robots.contains(robot));
         let ours = configured == self.configured && assignment.formation_hash == formation.hash;
         if !(fresh && known && ours) {
@@ -43,6 +47,8 @@ impl LeaderAssignment {
             self.held = Held { since: Some(written), ..Held::new(plan, robots) };
         }
         self.seats = Seated::of_assignment(&self.held.plan, &assignment);
+        // Links that were broken are watched anew.
+        self.seats = members::without(&self.held.plan, &self.seats, |_| false);
         (self.run, self.assignment) = (run, Some(assignment));
         Some(())
     }
@@ -78,7 +84,8 @@ impl LeaderAssignment {
     }
 
     pub(crate) fn assign(&mut self, at: Times, sink: &mut dyn Sink) {
-        let Some(robots) = self.positions(&self.held, at) else { return };
+        let Some(mut robots) = self.positions(&self.held, at) else { return };
+        robots.retain(|(robot, _)| !self.members.is_gone(robot));
         match organise(&self.held.plan, &robots, &self.seats, self.settings.keep_margin) {
             Ok(seats) => self.seats = seats,
             Err(error) => {
@@ -88,22 +95,11 @@ impl LeaderAssignment {
             }
         }
         self.health.set("assignment", Condition::Ok, format!("{} robots have places", self.seats.len()));
-        let header = Header { stamp: at.ros.into(), frame_id: self.held.plan.frame.id().to_owned() };
-        let epoch = self.assignment.as_ref().map_or(0, |old| old.epoch) + 1;
-        let members = self.seats.iter().map(Seated::member).collect();
-        let assignment = Assignment { header, epoch, formation_hash: self.held.message.hash, members };
-        let same = self
-            .assignment
-            .as_ref()
-            .is_some_and(|old| old.members == assignment.members && old.formation_hash == assignment.formation_hash);
-        if !same {
-            sink.publish(ASSIGNMENT, &assignment);
-            self.assignment = Some(assignment);
-        }
+        self.announce_seats(at, sink);
     }
 
     pub(crate) fn keep(&self, at: Times, sink: &mut dyn Sink) {
-        let kept = checkpoint::write(at.ros, &self.run, self.assignment.as_ref(), &self.held.message, self.configured);
+        let kept = checkpoint::write(at.ros, &self.run, self.assignment.as_ref(), &self.held, self.configured);
         sink.checkpoint(&kept);
     }
 

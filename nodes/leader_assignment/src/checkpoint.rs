@@ -4,6 +4,7 @@
 //! [`FRESH`] is of another run: nobody wants yesterday's run to go on.
 
 use crate::RunMachine;
+use crate::held::Held;
 use trench_core::RosTime;
 use trench_msgs::msg::{Assignment, Formation, RunState};
 use trench_msgs::std_msgs::Header;
@@ -12,6 +13,9 @@ use trench_msgs::{Encode, Message};
 /// A checkpoint is rewritten every second and lasts this long, s: the time a supervisor takes to start a process again.
 pub(crate) const FRESH: f64 = 10.0;
 
+/// Between names: no name holds one.
+const SEPARATOR: &str = "\n";
+
 /// A checkpoint that has been read.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Checkpoint {
@@ -19,18 +23,20 @@ pub(crate) struct Checkpoint {
     pub(crate) run: RunMachine,
     pub(crate) assignment: Option<Assignment>,
     pub(crate) formation: Formation,
+    /// All that take part, those that have quit too, in order of name.
+    pub(crate) robots: Vec<String>,
     /// Hash of the formation that the process was started with.
     pub(crate) configured: u64,
 }
 
-/// The state of a run as it goes into a file: three messages and the hash of the first formation, each behind
-/// its length.
+/// The state of a run as it goes into a file: three messages, the robots' names, and the hash of the first formation,
+/// each behind its length.
 #[must_use]
 pub(crate) fn write(
     now: RosTime,
     run: &RunMachine,
     assignment: Option<&Assignment>,
-    formation: &Formation,
+    held: &Held,
     configured: u64,
 ) -> Vec<u8> {
     let state = RunState {
@@ -42,7 +48,9 @@ pub(crate) fn write(
     };
     let mut bytes = Vec::new();
     let assignment = assignment.map(Encode::to_cdr).unwrap_or_default();
-    for cdr in [state.to_cdr(), assignment, formation.to_cdr(), configured.to_le_bytes().to_vec()] {
+    let robots = held.robots.join(SEPARATOR).into_bytes();
+    let parts = [state.to_cdr(), assignment, held.message.to_cdr(), robots, configured.to_le_bytes().to_vec()];
+    for cdr in parts {
         bytes.extend_from_slice(&(cdr.len() as u32).to_le_bytes());
         bytes.extend_from_slice(&cdr);
     }
@@ -55,6 +63,7 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let (state, rest) = part(bytes)?;
     let (assignment, rest) = part(rest)?;
     let (formation, rest) = part(rest)?;
+    let (robots, rest) = part(rest)?;
     let (configured, rest) = part(rest)?;
     if !rest.is_empty() {
         return None;
@@ -64,8 +73,10 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let run = RunMachine::resume(state.state, (t0.0 != 0).then_some(t0), state.reason.clone());
     let assignment = if assignment.is_empty() { None } else { Some(Assignment::decode(assignment).ok()?) };
     let formation = Formation::decode(formation).ok()?;
+    let robots = std::str::from_utf8(robots).ok()?;
+    let robots = robots.split(SEPARATOR).filter(|robot| !robot.is_empty()).map(str::to_owned).collect();
     let configured = u64::from_le_bytes(configured.try_into().ok()?);
-    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment, formation, configured })
+    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment, formation, robots, configured })
 }
 
 fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
@@ -78,6 +89,12 @@ mod tests {
     use super::*;
     use crate::Request;
 
+    fn held() -> Held {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../config/formations/square.yaml");
+        let plan = trench_plan::parse(path, &std::fs::read_to_string(path).unwrap()).unwrap();
+        Held::new(plan, vec!["robot1".to_owned(), "robot2".to_owned()])
+    }
+
     #[test]
     fn what_is_written_is_read() {
         let mut run = RunMachine::default();
@@ -87,16 +104,17 @@ mod tests {
         let assignment = Assignment { epoch: 7, ..Default::default() };
         let written = RosTime(9_000_000_000);
         for assignment in [Some(assignment), None] {
-            let formation = Formation { hash: 3, ..Default::default() };
-            let bytes = write(written, &run, assignment.as_ref(), &formation, 9);
-            let expected = Checkpoint { written, run: run.clone(), assignment, formation, configured: 9 };
+            let held = held();
+            let bytes = write(written, &run, assignment.as_ref(), &held, 9);
+            let (formation, robots) = (held.message, held.robots);
+            let expected = Checkpoint { written, run: run.clone(), assignment, formation, robots, configured: 9 };
             assert_eq!(read(&bytes), Some(expected));
         }
     }
 
     #[test]
     fn damage_is_noticed() {
-        let bytes = write(RosTime(0), &RunMachine::default(), None, &Formation::default(), 9);
+        let bytes = write(RosTime(0), &RunMachine::default(), None, &held(), 9);
         for length in 0..bytes.len() {
             assert_eq!(read(&bytes[..length]), None, "cut to {length}");
         }

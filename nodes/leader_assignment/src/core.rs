@@ -3,18 +3,19 @@
 use crate::checkpoint::{self, Checkpoint};
 use crate::held::Held;
 use crate::organise::Seated;
-use crate::settings::{Settings, descriptors, target_limits};
+use crate::settings::{Settings, descriptors, target_limits, team_limits};
+use crate::team::Team;
 use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos,
-    Serve, Sink, StartError, Steady, Subscribe, Times, resolve_name,
+    Advertise, Condition, Event, Files, Health, Interface, Level, Local, Master, NodeContext, NodeCore,
+    NodeDescription, NotMaster, Qos, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::SetFormation;
-use trench_msgs::msg::{Assignment, Formation, Goals, RunState, TeamState};
+use trench_msgs::msg::{Assignment, Formation, Goals, LeaderState, LinkStatus, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_srvs::Trigger;
 use trench_msgs::visualization_msgs::MarkerArray;
@@ -23,6 +24,8 @@ use trench_msgs::{Encode, Message};
 const TEAM_STATE: usize = 0;
 const TARGET: usize = 1;
 const SET_FORMATION: usize = 2;
+/// The robots' leader states follow from here on, and then their links.
+const ROBOTS: usize = 3;
 
 pub(crate) const FORMATION: usize = 0;
 pub(crate) const ASSIGNMENT: usize = 1;
@@ -30,6 +33,15 @@ pub(crate) const GOALS: usize = 2;
 pub(crate) const RUN_STATE: usize = 3;
 const DIAGNOSTICS: usize = 4;
 pub(crate) const MARKERS: usize = 5;
+
+/// Why a message was dropped.
+#[derive(Debug, thiserror::Error)]
+enum Dropped {
+    #[error(transparent)]
+    Cdr(#[from] CdrError),
+    #[error(transparent)]
+    NotMaster(#[from] NotMaster),
+}
 
 /// Who goes where, and when.
 pub struct LeaderAssignment {
@@ -45,6 +57,10 @@ pub struct LeaderAssignment {
     /// What an earlier life of the process left, until it is looked at.
     pub(crate) checkpoint: Option<Checkpoint>,
     pub(crate) team: Option<TeamState>,
+    /// Who writes /team_state.
+    localizer: Master,
+    /// Who is gone, and who does not hear whom.
+    pub(crate) members: Team,
     pub(crate) target: Target,
     pub(crate) targets_refused: u64,
     pub(crate) health: Health,
@@ -79,6 +95,8 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         seats: Vec::new(),
         checkpoint,
         team: None,
+        localizer: Master::default(),
+        members: Team::default(),
         targets_refused: 0,
         wakeup: None,
         last_picture: None,
@@ -90,12 +108,18 @@ fn interface(robots: &[String]) -> Interface {
     let mut services: Vec<Serve> =
         ["arm", "start", "stop", "reset"].map(|name| Serve::of::<Trigger>(format!("~/{name}"))).into();
     services.push(Serve::of::<SetFormation>("~/set_formation"));
+    let mut subscriptions = vec![
+        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
+        Subscribe::to::<Odometry>("/target", Qos::RELIABLE),
+        Subscribe::to::<Formation>("/set_formation", Qos::RELIABLE),
+    ];
+    // What robots say of themselves is looked at with the next team state, and wakes nobody.
+    let leader_state =
+        |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE).without_waking();
+    let link = |name: &String| Subscribe::to::<LinkStatus>(format!("/{name}/link"), Qos::RELIABLE).without_waking();
+    subscriptions.extend(robots.iter().map(leader_state).chain(robots.iter().map(link)));
     Interface {
-        subscriptions: vec![
-            Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
-            Subscribe::to::<Odometry>("/target", Qos::RELIABLE),
-            Subscribe::to::<Formation>("/set_formation", Qos::RELIABLE),
-        ],
+        subscriptions,
         publications: vec![
             Advertise::of::<Formation>("/formation", Qos::LATCHED, Local::NetworkOnly),
             Advertise::of::<Assignment>("/assignment", Qos::LATCHED, Local::NetworkOnly),
@@ -110,12 +134,25 @@ fn interface(robots: &[String]) -> Interface {
 }
 
 impl LeaderAssignment {
-    fn take(&mut self, at: Times, port: usize, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), CdrError> {
+    fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), Dropped> {
         match port {
-            TEAM_STATE => self.tick(at, TeamState::decode(cdr)?, sink),
+            TEAM_STATE => {
+                self.localizer.admit(source, at.steady)?;
+                self.tick(at, TeamState::decode(cdr)?, sink);
+            }
             TARGET => self.hear_target(at, &Odometry::decode(cdr)?, sink),
             SET_FORMATION => self.formation_asked(at, &Formation::decode(cdr)?, sink),
-            _ => {}
+            _ => self.hear_of_robot(at, port - ROBOTS, cdr)?,
+        }
+        Ok(())
+    }
+
+    fn hear_of_robot(&mut self, at: Times, index: usize, cdr: &[u8]) -> Result<(), CdrError> {
+        let robots = &self.settings.robots;
+        if let Some(robot) = robots.get(index) {
+            self.members.controller(at, robot, LeaderState::decode(cdr)?);
+        } else if let Some(robot) = robots.get(index - robots.len()) {
+            self.members.radio(robot, &LinkStatus::decode(cdr)?);
         }
         Ok(())
     }
@@ -140,8 +177,8 @@ impl NodeCore for LeaderAssignment {
                 self.started(at, sink);
                 self.wakeup = Some(at.steady.plus_seconds(1.0));
             }
-            Event::Message { port, cdr, .. } => {
-                if let Err(error) = self.take(at, port, cdr, sink) {
+            Event::Message { port, source, cdr } => {
+                if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");
                     sink.log(Level::Warn, &text);
@@ -151,6 +188,7 @@ impl NodeCore for LeaderAssignment {
             Event::Request { service, id, cdr } => self.serve(at, (service, id), cdr, sink),
             Event::Wakeup => {
                 self.wakeup = Some(at.steady.plus_seconds(1.0));
+                self.follow_structure(at, sink);
                 if self.run.running() {
                     self.keep(at, sink);
                 }
@@ -168,6 +206,7 @@ impl NodeCore for LeaderAssignment {
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
         let (keep_margin, target) = (parameters.f64("keep_margin")?, target_limits(parameters)?);
+        self.settings.team = team_limits(parameters)?;
         (self.settings.keep_margin, self.settings.target) = (keep_margin, target);
         self.target.set_limits(target);
         Ok(())

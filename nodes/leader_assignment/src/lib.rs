@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | formation file to queues | `trench_plan` | Definition 2.1.1 |
 //! | robots to places, chains | [`organise`] | 2.1, 6.2.1 |
+//! | robots that quit and join, links that break | `structure`, `members`, `team` | 8.4, A.22 |
 //! | goal points | [`virtual_point`] | 4.6 |
 //! | the formation's frame | [`Target`] | 2.1: formations move with the target |
 //! | markers | `markers` | for RViz2 and Foxglove |
@@ -15,13 +16,17 @@ mod checkpoint;
 mod core;
 mod held;
 mod markers;
+mod members;
 mod organise;
 mod run_machine;
 mod services;
 mod settings;
+mod structure;
 mod target;
+mod team;
 mod tick;
 mod virtual_point;
+mod watch;
 
 pub use crate::core::{LeaderAssignment, description};
 pub use carrier::Carrier;

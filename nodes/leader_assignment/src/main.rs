@@ -1,5 +1,5 @@
 //! The process of leader_assignment.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(leader_assignment::description())
+    trench_runtime::run_alone(leader_assignment::description())
 }

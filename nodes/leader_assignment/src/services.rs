@@ -42,6 +42,7 @@ impl LeaderAssignment {
         if answer.is_ok() {
             if matches!(request, Request::Arm | Request::Start) {
                 self.held.since = None;
+                self.members.begin();
                 self.assign(at, sink);
             }
             self.announce(at, sink);

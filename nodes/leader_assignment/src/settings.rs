@@ -1,6 +1,7 @@
 //! The parameters of leader_assignment.
 
 use crate::TargetLimits;
+use crate::team::TeamLimits;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::Files;
 use trench_plan::{Frame, Plan, QueuePlan};
@@ -14,6 +15,7 @@ pub(crate) struct Settings {
     pub(crate) robots: Vec<String>,
     pub(crate) keep_margin: f64,
     pub(crate) target: TargetLimits,
+    pub(crate) team: TeamLimits,
     /// The robot that is the target; empty: /target says where it is.
     pub(crate) target_robot: String,
     /// Low corner and high corner, m; none: formations may be anywhere.
@@ -28,6 +30,12 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string_list("robots", &[], "names of the robots that take part").read_only(),
         P::double("keep_margin", 0.2, "fraction by which a new assignment must be shorter to replace the present one")
             .range(0.0, 10.0),
+        P::double("age.robot", 2.0, "s, for which a robot may be unseen, silent or out of reach before it has quit")
+            .range(0.1, 3600.0),
+        P::double("age.link", 0.5, "s, for which a follower may not hear its leader before it follows its goal")
+            .range(0.1, 3600.0),
+        P::double("dwell", 2.0, "s, for which robot or link must be good to count again; doubles with each loss")
+            .range(0.1, 3600.0),
         P::double("age.target", 0.5, "s, silence of /target after which a formation in its frame stops")
             .range(0.001, 60.0),
         P::double("target.speed", 1.0, "m/s, no target is believed to be faster").range(0.001, 100.0),
@@ -71,6 +79,7 @@ impl Settings {
             robots,
             keep_margin: parameters.f64("keep_margin")?,
             target: target_limits(parameters)?,
+            team: team_limits(parameters)?,
             target_robot: parameters.str("target.robot")?.to_owned(),
             field,
         };
@@ -84,6 +93,14 @@ pub(crate) fn target_limits(parameters: &Parameters) -> Result<TargetLimits, Con
         jump: parameters.f64("target.jump")?,
         age: parameters.f64("age.target")?,
         turns: parameters.bool("target.turns")?,
+    })
+}
+
+pub(crate) fn team_limits(parameters: &Parameters) -> Result<TeamLimits, ConfigError> {
+    Ok(TeamLimits {
+        robot: parameters.f64("age.robot")?,
+        link: parameters.f64("age.link")?,
+        dwell: parameters.f64("dwell")?,
     })
 }
 

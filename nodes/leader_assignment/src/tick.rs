@@ -28,7 +28,9 @@ impl LeaderAssignment {
     pub(crate) fn tick(&mut self, at: Times, team: TeamState, sink: &mut dyn Sink) {
         let stamp = RosTime::from(&team.header.stamp);
         self.target_among(at, stamp, &team, sink);
+        self.members.seen(at, &team);
         self.team = Some(team);
+        self.follow_structure(at, sink);
         if self.unlocalised(&self.held.robots).is_empty() && self.run.localised(stamp) {
             self.announce(at, sink);
         }

@@ -6,7 +6,8 @@ use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
 use trench_msgs::msg::{
-    Assignment, Formation, Goal, Goals, RobotState, RunState, SetFormationRequest, SetFormationResponse, TeamState,
+    Assignment, Formation, Goal, Goals, LeaderState, LinkStatus, RobotState, RunState, SetFormationRequest,
+    SetFormationResponse, TeamState,
 };
 use trench_msgs::std_srvs::{TriggerRequest, TriggerResponse};
 use trench_msgs::visualization_msgs::MarkerArray;
@@ -38,11 +39,18 @@ struct Bench {
     core: Box<dyn NodeCore>,
     out: Outbox,
     seconds: f64,
+    /// The last one before the last call of a service.
+    assignment: Option<Assignment>,
 }
 
 impl Bench {
     fn new(seconds: f64, checkpoint: Option<Vec<u8>>) -> Self {
-        let mut bench = Self { core: make(&[FILE, ROBOTS], checkpoint).unwrap(), out: Outbox::default(), seconds };
+        let mut bench = Self {
+            core: make(&[FILE, ROBOTS], checkpoint).unwrap(),
+            out: Outbox::default(),
+            seconds,
+            assignment: None,
+        };
         bench.handle(Event::Started);
         bench
     }
@@ -54,6 +62,7 @@ impl Bench {
 
     fn call(&mut self, name: &str) -> TriggerResponse {
         let service = self.core.interface().services.iter().position(|serve| serve.name.ends_with(name)).unwrap();
+        self.assignment = self.last("/assignment").or(self.assignment.take());
         self.out.take();
         let cdr = TriggerRequest::default().to_cdr();
         self.handle(Event::Request { service, id: RequestId(1), cdr: &cdr });
@@ -97,6 +106,30 @@ impl Bench {
         team.header.stamp = RosTime(0).plus_seconds(self.seconds).into();
         let cdr = team.to_cdr();
         self.handle(Event::Message { port: 0, source: Default::default(), cdr: &cdr });
+    }
+
+    /// So many seconds of frames in which the robots of `speakers` say whom they hear; `silent` names radios that are down.
+    fn live(&mut self, seconds: f64, speakers: &[(&str, &[&str])], silent: &[&str]) {
+        for _ in 0..(10.0 * seconds) as u32 {
+            self.seconds += 0.1;
+            for (robot, hears) in speakers {
+                let hears = hears.iter().map(|name| (*name).to_owned()).collect();
+                self.send(&format!("/{robot}/leader_state"), &LeaderState { hears, ..Default::default() });
+                let link = LinkStatus { up: !silent.contains(robot), ..Default::default() };
+                self.send(&format!("/{robot}/link"), &link);
+            }
+            self.see(RobotState::STATUS_TRACKED);
+        }
+    }
+
+    /// The last assignment.
+    fn assigned(&self) -> Assignment {
+        self.last("/assignment").or(self.assignment.clone()).unwrap()
+    }
+
+    /// Robot and leader of each member of the last assignment.
+    fn chains(&self) -> Vec<(String, String)> {
+        self.assigned().members.into_iter().map(|member| (member.robot, member.leader)).collect()
     }
 
     fn last<M: Message>(&self, topic: &str) -> Option<M> {
@@ -210,7 +243,7 @@ fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
     let sources = [FILE, ("robots", "[robot1]")].map(|(name, value)| Source::Override { node: None, name, value });
     let parameters = resolve(&sources, "/", node.name, &(node.parameters)()).unwrap();
     let core = (node.build)(&NodeContext::default(), &parameters, &OnTarget).unwrap();
-    let mut bench = Bench { core, out: Outbox::default(), seconds: 10.0 };
+    let mut bench = Bench { core, out: Outbox::default(), seconds: 10.0, assignment: None };
     bench.handle(Event::Started);
     bench.see(RobotState::STATUS_TRACKED);
     assert!(bench.last::<Goals>("/goals").is_none(), "nobody knows where the formation is");
@@ -295,7 +328,12 @@ fn a_formation_that_does_not_fit_is_refused_and_the_old_one_stays() {
 #[test]
 fn a_formation_larger_than_the_field_is_refused() {
     let field = ("field", "[0.0, 0.0, 2.48, 1.83]");
-    let mut bench = Bench { core: make(&[FILE, ROBOTS, field], None).unwrap(), out: Outbox::default(), seconds: 1.0 };
+    let mut bench = Bench {
+        core: make(&[FILE, ROBOTS, field], None).unwrap(),
+        out: Outbox::default(),
+        seconds: 1.0,
+        assignment: None,
+    };
     bench.handle(Event::Started);
     let answer = bench.set_formation("", 2.0, &[]);
     assert!(!answer.success && answer.message.contains("outside the field"), "{answer:?}");
@@ -330,4 +368,62 @@ fn a_changed_formation_outlives_the_process() {
     assert_eq!(again.last::<Formation>("/formation").unwrap().hash, held.hash);
     assert_eq!(again.last::<Assignment>("/assignment").unwrap().members.len(), 3);
     assert_eq!(again.last::<RunState>("/run_state").unwrap().state, RunState::RUNNING);
+}
+
+const EVERYBODY: [(&str, &[&str]); 4] =
+    [("robot1", &["robot2"]), ("robot2", &["robot1"]), ("robot3", &["robot4"]), ("robot4", &["robot3"])];
+
+fn names(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
+    pairs.iter().map(|(robot, leader)| ((*robot).to_owned(), (*leader).to_owned())).collect()
+}
+
+#[test]
+fn who_does_not_hear_its_leader_follows_nobody_until_it_does() {
+    let mut bench = Bench::running();
+    bench.live(5.0, &EVERYBODY, &[]);
+    let whole = names(&[("robot2", ""), ("robot1", "robot2"), ("robot4", ""), ("robot3", "robot4")]);
+    assert_eq!(bench.chains(), whole);
+    let deaf: [(&str, &[&str]); 4] = [("robot1", &["robot3"]), EVERYBODY[1], EVERYBODY[2], EVERYBODY[3]];
+    bench.live(0.4, &deaf, &[]);
+    assert_eq!(bench.chains(), whole, "a gap is no break");
+    bench.live(0.5, &deaf, &[]);
+    let broken = names(&[("robot2", ""), ("robot1", ""), ("robot4", ""), ("robot3", "robot4")]);
+    assert_eq!(bench.chains(), broken);
+    bench.live(1.5, &EVERYBODY, &[]);
+    assert_eq!(bench.chains(), broken, "the dwell time is not over");
+    bench.live(1.0, &EVERYBODY, &[]);
+    assert_eq!(bench.chains(), whole);
+    let goals: Goals = bench.last("/goals").unwrap();
+    let assignment: Assignment = bench.last("/assignment").unwrap();
+    assert_eq!((goals.epoch, assignment.epoch), (3, 3));
+}
+
+#[test]
+fn robots_quit_and_join_while_the_others_keep_their_places() {
+    let mut bench = Bench::running();
+    bench.live(5.0, &EVERYBODY, &[]);
+    let before = bench.assigned();
+    bench.live(2.5, &EVERYBODY, &["robot2"]);
+    let three = names(&[("robot1", ""), ("robot4", ""), ("robot3", "robot4")]);
+    assert_eq!(bench.chains(), three, "robot2's radio is down");
+    assert_eq!(bench.last::<Goals>("/goals").unwrap().goals.len(), 3);
+    // A controller that dies is no other case.
+    bench.live(3.0, &[EVERYBODY[0], EVERYBODY[1], EVERYBODY[3]], &["robot2"]);
+    assert_eq!(bench.chains(), names(&[("robot1", ""), ("robot4", "")]));
+    bench.live(3.0, &EVERYBODY, &[]);
+    let after: Assignment = bench.last("/assignment").unwrap();
+    assert_eq!(after.members, before.members, "both have their places again");
+}
+
+#[test]
+fn a_robot_that_has_quit_joins_after_a_restart_too() {
+    let mut died = Bench::running();
+    died.live(5.0, &EVERYBODY, &[]);
+    died.live(2.5, &EVERYBODY, &["robot2"]);
+    died.seconds += 1.0;
+    died.handle(Event::Wakeup);
+    let mut again = Bench::new(died.seconds + 1.0, Some(died.checkpoint()));
+    assert_eq!(again.chains().len(), 3);
+    again.live(1.0, &EVERYBODY, &[]);
+    assert_eq!(again.chains().len(), 4, "{:?}", again.chains());
 }

@@ -1,5 +1,5 @@
 //! The mapper's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(obstacle_mapper::description())
+    trench_runtime::run_alone(obstacle_mapper::description())
 }

@@ -1,5 +1,6 @@
 //! The localizer as a state machine: frames in, the team's state out.
 
+use crate::frozen::Frozen;
 use crate::gather::{Gather, Look};
 use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
@@ -51,6 +52,8 @@ pub struct OverheadLocalizer {
     intakes: Vec<Intake>,
     /// Of several cameras.
     gather: Option<Gather>,
+    /// One a camera.
+    frozen: Vec<Frozen>,
     tracker: Tracker,
     stream: Stream,
     memory: Memory,
@@ -74,6 +77,7 @@ impl OverheadLocalizer {
         Ok(Self {
             interface: interface(&settings, &tracker),
             intakes,
+            frozen: vec![Frozen::default(); settings.cameras.len()],
             gather: several.map(|cameras| Gather::new(cameras, settings.together)),
             tracker,
             stream: Stream::default(),
@@ -93,6 +97,11 @@ impl OverheadLocalizer {
             None => intake.take(cdr, |stamp| stream.take(source, stamp), sightings),
             Some(gather) => intake.take(cdr, |stamp| gather.wants(camera, stamp).then_some(0.0), sightings),
         };
+        let shown = matches!(taken, Ok(Some(_)));
+        if shown && self.frozen.get_mut(camera).is_some_and(|frozen| frozen.look(sightings, self.settings.frozen)) {
+            self.report.reject("the camera is frozen: its pictures are equal to the last bit".to_owned(), sink);
+            return;
+        }
         match (taken, gather) {
             (Ok(Some((stamp, interval))), None) => {
                 let discs: Vec<MapDisc> = sightings.iter().map(|sighting| sighting.disc).collect();

@@ -9,6 +9,7 @@
 //! Architecture invariant: pixels appear only here and in the renderer; everything published is in the map.
 
 mod core;
+mod frozen;
 mod gather;
 mod intake;
 mod markers;

@@ -1,5 +1,5 @@
 //! The localizer's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(overhead_localizer::description())
+    trench_runtime::run_alone(overhead_localizer::description())
 }

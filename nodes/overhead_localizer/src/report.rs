@@ -101,13 +101,15 @@ impl Report {
 
         let names = |status: Status| missing::names(tracks, |track| track.status == status);
         let (lost, doubtful) = (names(Status::Lost), names(Status::Ambiguous));
+        let unseen = names(Status::Predicted);
         let (condition, message) = match (missing::shortage(tracks, self.pads), doubtful.is_empty()) {
             (Some(shortage), true) => (Condition::Warn, shortage),
             (Some(shortage), false) => (Condition::Error, format!("in doubt: {doubtful}; {shortage}")),
             (None, false) if lost.is_empty() => (Condition::Error, format!("in doubt: {doubtful}")),
             (None, false) => (Condition::Error, format!("in doubt: {doubtful}; lost: {lost}")),
-            (None, true) if lost.is_empty() => (Condition::Ok, "all robots are seen".to_owned()),
-            (None, true) => (Condition::Warn, format!("lost: {lost}")),
+            (None, true) if !lost.is_empty() => (Condition::Warn, format!("lost: {lost}")),
+            (None, true) if !unseen.is_empty() => (Condition::Warn, format!("not seen: {unseen}")),
+            (None, true) => (Condition::Ok, "all robots are seen".to_owned()),
         };
         self.health.value("robots", "pads", self.pads);
         self.health.set("robots", condition, message);

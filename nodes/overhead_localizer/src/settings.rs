@@ -28,6 +28,8 @@ pub(crate) struct Settings {
     pub(crate) together: f64,
     pub(crate) input: Input,
     pub(crate) noise_seed: u64,
+    /// So many equal frames in a row are a frozen camera.
+    pub(crate) frozen: u32,
     pub(crate) team: track::Settings,
     pub(crate) colours: ColourLimits,
 }
@@ -67,6 +69,8 @@ pub(crate) fn descriptors() -> Vec<P> {
             .range(0.05, 2.0),
         P::double("colour.blue", colours.blue_ratio, "least (2 B - R - G) / (R + G + B) of blue").range(0.05, 2.0),
         P::double("colour.minimum", colours.minimum, "of 510, least absolute difference of either").range(5.0, 510.0),
+        P::integer("frozen_frames", 3, "so many equal frames in a row after a first are a frozen camera; 0: never")
+            .range(0.0, 1000.0),
         P::double("hold", 0.5, "s, how long an unseen robot is carried forward before it is lost").range(0.0, 10.0),
         P::double(
             "disc_sigma",
@@ -130,6 +134,7 @@ impl Settings {
             together: parameters.f64("cameras.together")?,
             input,
             noise_seed: parameters.usize("added_noise.seed")? as u64,
+            frozen: 0,
             team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },
             colours: ColourLimits::default(),
         };
@@ -144,6 +149,7 @@ impl Settings {
             blue_ratio: parameters.f64("colour.blue")?,
             minimum: parameters.f64("colour.minimum")?,
         };
+        let frozen = u32::try_from(parameters.i64("frozen_frames")?).unwrap_or(0);
         let team = track::Settings {
             spacing_tolerance: parameters.f64("pad.tolerance")?,
             disc_sigma: match parameters.f64("disc_sigma")? {
@@ -160,7 +166,7 @@ impl Settings {
             },
             ..self.team.clone()
         };
-        (self.colours, self.team) = (colours, team);
+        (self.colours, self.team, self.frozen) = (colours, team, frozen);
         Ok(())
     }
 }

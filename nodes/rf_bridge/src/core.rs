@@ -14,6 +14,9 @@ use trench_msgs::msg::RunState;
 use trench_msgs::std_msgs::Bool;
 use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
+/// Between two looks at how things are, s.
+const LOOK: f64 = 0.1;
+
 /// The bridge.
 pub struct RfBridge {
     pub(crate) interface: Interface,
@@ -34,6 +37,7 @@ pub struct RfBridge {
     pub(crate) gathered_at: Option<Steady>,
     pub(crate) heartbeat_at: Steady,
     pub(crate) repeat_at: Option<Steady>,
+    pub(crate) looked_at: Option<Steady>,
     pub(crate) refused: u64,
     /// When the last message was dropped.
     pub(crate) refused_at: Option<Steady>,
@@ -99,6 +103,14 @@ impl RfBridge {
         }
         if self.gathered_at.is_some_and(|due| due <= at.steady) || self.heartbeat_at <= at.steady {
             self.broadcast(at, sink);
+        }
+    }
+
+    /// Looks now and then how things are: while commands flow no heartbeat does.
+    fn look(&mut self, at: Times, sink: &mut dyn Sink) {
+        if self.looked_at.is_none_or(|looked| at.steady.seconds_since(looked) >= LOOK) {
+            self.looked_at = Some(at.steady);
+            self.tell_silence(at, sink);
             self.diagnose(at.steady);
         }
     }
@@ -159,6 +171,7 @@ impl NodeCore for RfBridge {
             }
             _ => {}
         }
+        self.look(at, sink);
         self.health.publish(at, DIAGNOSTICS, sink);
     }
 

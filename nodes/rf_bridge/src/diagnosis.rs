@@ -2,6 +2,7 @@
 
 use crate::core::RfBridge;
 use trench_core::{Condition, Steady};
+use trench_radio::Fault;
 
 /// A dropped message is worth a warning for this long, s.
 const LATELY: f64 = 5.0;
@@ -32,10 +33,16 @@ impl RfBridge {
             .filter(|robot| !robot.monitor.up(now, self.tuning.silence))
             .map(|robot| robot.name.as_str())
             .collect();
-        if silent.is_empty() {
-            self.health.set("links", Condition::Ok, "all robots are heard");
-        } else {
-            self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", ")));
+        let weak: Vec<&str> = self
+            .robots
+            .iter()
+            .filter(|robot| robot.monitor.report().is_some_and(|report| report.fault.0 & Fault::LOW_BATTERY.0 != 0))
+            .map(|robot| robot.name.as_str())
+            .collect();
+        match (silent.is_empty(), weak.is_empty()) {
+            (true, true) => self.health.set("links", Condition::Ok, "all robots are heard"),
+            (false, _) => self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", "))),
+            (true, false) => self.health.set("links", Condition::Warn, format!("low battery: {}", weak.join(", "))),
         }
         let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
         let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();

@@ -64,6 +64,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         gathered_at: None,
         heartbeat_at: Steady::default(),
         repeat_at: None,
+        looked_at: None,
         refused: 0,
         refused_at: None,
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),

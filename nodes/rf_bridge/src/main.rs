@@ -1,5 +1,5 @@
 //! The bridge's process.
 
 fn main() -> std::process::ExitCode {
-    trench_runtime::run(rf_bridge::description())
+    trench_runtime::run_alone(rf_bridge::description())
 }

@@ -74,8 +74,8 @@ impl Monitor {
         if sent == 0 { 0.0 } else { (1.0 - f64::from(received) / sent as f64).clamp(0.0, 1.0) }
     }
 
-    /// The message.
-    pub(crate) fn status(&self, at: Times, robot: &str, silence: f64) -> LinkStatus {
+    /// The message; `hears` are the names of the robots that it hears.
+    pub(crate) fn status(&self, at: Times, robot: &str, hears: Vec<String>, silence: f64) -> LinkStatus {
         let heard = self.heard.as_ref();
         LinkStatus {
             header: Header { stamp: at.ros.into(), frame_id: String::new() },
@@ -85,6 +85,7 @@ impl Monitor {
             signal: heard.map_or(0.0, |heard| f64::from(heard.report.signal_dbm)),
             round_trip: self.round_trip,
             hops: heard.map_or(0, |heard| heard.relayed.max(heard.report.last_relayed) + 1),
+            hears,
             fault: heard.map_or(0, |heard| heard.report.fault.0),
             last_heard: heard.map(|heard| heard.ros.into()).unwrap_or_default(),
             commands_sent: self.sent,
@@ -109,13 +110,13 @@ mod tests {
             let at = Times { steady: Steady(tenth * 100_000_000), ros: RosTime(0) };
             let sent = Sent::of_test(Steady(at.steady.0.saturating_sub(20_000_000)), 10 * tenth);
             monitor.update(at, report, 0, Some(sent));
-            let loss = monitor.status(at, "r", 0.5).loss;
+            let loss = monitor.status(at, "r", Vec::new(), 0.5).loss;
             assert!((loss - if tenth == 0 { 0.0 } else { 0.1 }).abs() < 1e-9 || tenth > 20, "{tenth}: {loss}");
         }
         let at = Times { steady: Steady(3_100_000_000), ros: RosTime(0) };
-        let status = monitor.status(at, "r", 0.5);
+        let status = monitor.status(at, "r", Vec::new(), 0.5);
         assert!(status.up && status.loss == 0.0 && (status.round_trip - 0.013).abs() < 1e-6, "{status:?}");
         let later = Times { steady: Steady(3_700_000_000), ros: RosTime(0) };
-        assert!(!monitor.status(later, "r", 0.5).up);
+        assert!(!monitor.status(later, "r", Vec::new(), 0.5).up);
     }
 }

@@ -61,6 +61,8 @@ pub(crate) struct Robot {
     pub(crate) monitor: Monitor,
     pub(crate) odometry: WheelOdometry,
     pub(crate) reach: Reach,
+    /// Whether it was heard when that was looked at last.
+    pub(crate) was_up: bool,
     /// Commands that were too old when the line was free.
     pub(crate) expired: u64,
     master: Option<([u8; 16], Steady)>,
@@ -77,6 +79,7 @@ impl Robot {
             monitor: Monitor::default(),
             odometry: WheelOdometry::default(),
             reach: Reach::default(),
+            was_up: false,
             expired: 0,
             master: None,
             command: None,

@@ -43,9 +43,32 @@ impl RfBridge {
         let (robot, first) = (&self.robots[index], self.first_port(index));
         sink.publish(first + BATTERY, &report::battery(at.ros, &robot.name, telemetry));
         sink.publish(first + ODOMETRY, &report::odometry(at.ros, &robot.name, &robot.odometry));
-        sink.publish(first + LINK, &robot.monitor.status(at, &robot.name, self.tuning.silence));
+        self.tell_link(at, index, sink);
         for (sensor, reading) in telemetry.ranges.as_slice().iter().enumerate().take(self.ranges) {
             sink.publish(first + RANGES + sensor, &report::range(at.ros, &robot.name, sensor, *reading));
+        }
+    }
+
+    /// Tells how good the link to a robot is.
+    fn tell_link(&self, at: Times, index: usize, sink: &mut dyn Sink) {
+        let robot = &self.robots[index];
+        // A robot that is not heard itself may hear anybody or nobody.
+        let report = robot.monitor.report().filter(|_| robot.monitor.up(at.steady, self.tuning.silence));
+        let neighbours = report.map(|report| report.neighbours).unwrap_or_default();
+        let heard = self.robots.iter().filter(|other| neighbours.contains(other.id));
+        let hears = heard.map(|other| other.name.clone()).collect();
+        let status = robot.monitor.status(at, &robot.name, hears, self.tuning.silence);
+        sink.publish(self.first_port(index) + LINK, &status);
+    }
+
+    /// Says of robots that have fallen silent that they have: no report of theirs brings it.
+    pub(crate) fn tell_silence(&mut self, at: Times, sink: &mut dyn Sink) {
+        for index in 0..self.robots.len() {
+            let robot = &mut self.robots[index];
+            let up = robot.monitor.up(at.steady, self.tuning.silence);
+            if std::mem::replace(&mut robot.was_up, up) && !up {
+                self.tell_link(at, index, sink);
+            }
         }
     }
 

@@ -53,6 +53,8 @@ const PARAMETERS: &str = "overhead_localizer:
     initial_poses: [1.5, 1.2, -2.0, 0.5, 0.5, 0.8]
     camera_info_file: overhead.yaml
     mount_file: overhead_mount.yaml
+    # The cameras of these tests have no noise: resting robots look the same in every frame.
+    frozen_frames: 0
 ";
 
 fn build(more: &str) -> Result<Box<dyn NodeCore>, String> {
@@ -258,6 +260,28 @@ fn silence_is_an_error_and_the_rate_is_told() {
     let rate = report.status[0].values.iter().find(|value| value.key == "frames per second").unwrap();
     assert_eq!(rate.value, "25.0");
     assert_eq!(wake(core.as_mut(), 2_000_000_000).status[0].message, "no frames");
+}
+
+#[test]
+fn a_frozen_camera_drives_nobody_however_fresh_its_stamps() {
+    let description = description();
+    let text = PARAMETERS.replace("frozen_frames: 0", "input: detections");
+    let sources = [Given::File { name: "localizer.yaml", text: &text }];
+    let parameters = resolve(&sources, "/", description.name, &(description.parameters)()).unwrap();
+    let mut core = (description.build)(&NodeContext::default(), &parameters, &Shipped).unwrap();
+    let mut told = |sequence: u64, noise: f64| -> usize {
+        let frame = detections(sequence, |discs| discs.iter_mut().for_each(|disc| disc.u += noise));
+        send(core.as_mut(), sequence, &frame).published::<TeamState>(0).len()
+    };
+    let moving: usize = (1..=10).map(|sequence| told(sequence, 1e-6 * sequence as f64)).sum();
+    assert_eq!(moving, 10);
+    let frozen: Vec<usize> = (11..=16).map(|sequence| told(sequence, 0.5)).collect();
+    assert_eq!(frozen, [1, 1, 1, 0, 0, 0]);
+    assert_eq!(told(17, 0.6), 1, "it goes on");
+    assert_eq!(
+        wake(core.as_mut(), 1_000_000_000).status[0].message,
+        "dropped: the camera is frozen: its pictures are equal to the last bit"
+    );
 }
 
 #[test]

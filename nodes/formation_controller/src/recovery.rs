@@ -1,0 +1,81 @@
+//! A robot that has lost its team (Remark 6.2.1): with its collision avoidance activated it approaches the segment and moves
+//! along it, as fast as it may, towards the team goal, until it hears another robot of its queue.
+
+use crate::dynamic::Frame;
+use crate::segments::Way;
+use crate::tick::Tick;
+use trench_core::{RosTime, Times};
+use trench_formation::Vector2;
+use trench_formation::curve::Placed;
+use trench_formation::kinematics::Pose;
+use trench_formation::laws::GoalMotion;
+
+/// The point that leads the robot along the segment is this far ahead, m: far enough to be followed at full speed.
+const LEAD: f64 = 0.3;
+
+/// Nearer to the segment than so many tolerances the robot turns along it.
+const CLOSE: f64 = 3.0;
+
+impl Tick {
+    /// The point that draws the robot if it follows others and has lost them.
+    pub(crate) fn recovery(&mut self, at: Times, acts: RosTime, robot: Pose) -> Option<GoalMotion> {
+        let dynamic = self.settings.dynamic.as_ref().filter(|dynamic| dynamic.law.is_chained())?;
+        let inputs = &self.inputs;
+        // The chain leader has its goal and follows nobody.
+        let member = inputs.member(&self.settings.robot).filter(|member| member.rank > 1)?;
+        let hears = inputs.hears_of_queue(member, at.steady, self.settings.leader_state_age_limit);
+        let speed = dynamic.capability.speed;
+        if !self.team_link.lost(at.steady, hears, self.settings.team_age_limit) {
+            return None;
+        }
+        let frame = inputs.frame(acts)?;
+        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, &frame, robot.position(), speed))
+    }
+}
+
+/// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s).
+fn point_ahead(way: &Way<'_>, frame: &Frame, robot: Vector2<f64>, speed: f64) -> GoalMotion {
+    let (segment, motion) = (Placed::new(way.curve, frame.map_from_segment()), frame.motion());
+    let here = segment.nearest(robot);
+    if here.distance > CLOSE * way.tolerance {
+        return motion.at(here.point);
+    }
+    let left = way.curve.nearest(way.team_goal).arc_length - here.arc_length;
+    if left.abs() <= LEAD {
+        return motion.at(segment.at(here.arc_length + left).point);
+    }
+    let ahead = segment.at(here.arc_length + LEAD.copysign(left));
+    let carried = motion.at(ahead.point);
+    GoalMotion { velocity: carried.velocity + speed.copysign(left) * ahead.tangent, ..carried }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trench_formation::curve::{Curve, CurveShape};
+
+    #[test]
+    fn first_to_the_segment_then_along_it_then_rest_at_the_team_goal() {
+        let line = CurveShape::Line(Vector2::new(-2.0, 0.0), Vector2::new(0.0, 0.0));
+        let curve = Curve::new(&line, false, false).unwrap();
+        let way = Way { curve: &curve, team_goal: Vector2::zeros(), tolerance: 0.05 };
+        let frame = Frame {
+            origin: GoalMotion {
+                position: Vector2::new(3.0, 1.0),
+                velocity: Vector2::new(0.06, 0.0),
+                acceleration: Vector2::zeros(),
+            },
+            theta: 0.0,
+            turn_rate: 0.0,
+        };
+        let check = |robot: [f64; 2], point: [f64; 2], speed: f64| {
+            let goal = point_ahead(&way, &frame, robot.into(), 0.2);
+            let expected = Vector2::from(point);
+            assert!((goal.position - expected).norm() < 1e-9, "{robot:?}: {goal:?}");
+            assert!((goal.velocity - Vector2::new(speed, 0.0)).norm() < 1e-9, "{robot:?}: {goal:?}");
+        };
+        check([1.5, 2.0], [1.5, 1.0], 0.06);
+        check([1.5, 1.1], [1.8, 1.0], 0.26);
+        check([2.9, 1.0], [3.0, 1.0], 0.06);
+    }
+}

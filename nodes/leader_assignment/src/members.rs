@@ -1,0 +1,126 @@
+//! Robots that quit and join during a run (A.22): the others keep their places, those behind close up in their chain.
+
+use crate::organise::Seated;
+use std::collections::BTreeMap;
+use trench_formation::Vector2;
+use trench_formation::assignment::robots_per_queue;
+use trench_plan::Plan;
+
+/// The seats without the robots that `gone` names (A.22, case 2.1): nobody gets another vertex; in a chain those behind move
+/// up by one.
+pub(crate) fn without(plan: &Plan, seats: &[Seated], gone: impl Fn(&str) -> bool) -> Vec<Seated> {
+    renumbered(plan, seats.iter().filter(|seat| !gone(&seat.robot)).cloned().collect())
+}
+
+/// The seats with a robot more (A.22, case 2.2): in the queue whose share lacks one, the nearest of them. In a chain it takes
+/// the place where it is, by distance to the team goal; otherwise the nearest free vertex. Nothing where all are taken.
+pub(crate) fn with(
+    plan: &Plan,
+    seats: &[Seated],
+    (robot, position): (&str, Vector2<f64>),
+    others: &BTreeMap<String, Vector2<f64>>,
+) -> Option<Vec<Seated>> {
+    let queue = queue_to_join(plan, seats, position)?;
+    let team: Vec<&Seated> = seats.iter().filter(|seat| seat.queue == queue).collect();
+    let end = |place: usize| plan.queues[queue].curve.at(plan.queues[queue].places[place].end).point;
+    let free = (0..plan.queues[queue].places.len()).filter(|place| team.iter().all(|seat| seat.place != *place));
+    let place = free.min_by(|a, b| (end(*a) - position).norm().total_cmp(&(end(*b) - position).norm()))?;
+    let goal = plan.queues[queue].vertices.first().copied().unwrap_or_default();
+    let distance = |name: &str| others.get(name).map_or(f64::INFINITY, |position| (position - goal).norm());
+    let before = team.iter().filter(|seat| distance(&seat.robot) <= (position - goal).norm()).count();
+    let seat = Seated { robot: robot.to_owned(), queue, place, rank: 0, leader: None };
+    let at = seats.iter().filter(|seat| seat.queue < queue).count() + before;
+    let mut all = seats.to_vec();
+    all.insert(at.min(all.len()), seat);
+    Some(renumbered(plan, all))
+}
+
+/// Of the queues with a free place the one nearest to the robot, those whose share lacks a robot before the others.
+fn queue_to_join(plan: &Plan, seats: &[Seated], position: Vector2<f64>) -> Option<usize> {
+    let shares: Vec<f64> = plan.queues.iter().map(|queue| queue.share).collect();
+    let counts = robots_per_queue(&shares, seats.len() + 1).ok()?;
+    let filled = |queue: usize| seats.iter().filter(|seat| seat.queue == queue).count();
+    let lacking = |queue: usize| filled(queue) < counts[queue];
+    let away = |queue: usize| plan.queues[queue].curve.nearest(position).distance;
+    let free = (0..plan.queues.len()).filter(|queue| filled(*queue) < plan.queues[*queue].places.len());
+    free.min_by(|a, b| lacking(*b).cmp(&lacking(*a)).then(away(*a).total_cmp(&away(*b))))
+}
+
+/// Ranks and leaders by the order in each queue; in a chain the rank is the place.
+fn renumbered(plan: &Plan, mut seats: Vec<Seated>) -> Vec<Seated> {
+    let mut last: Option<(usize, usize, String)> = None;
+    for seat in &mut seats {
+        let ahead = last.take().filter(|(queue, ..)| *queue == seat.queue);
+        seat.rank = ahead.as_ref().map_or(1, |(_, rank, _)| rank + 1);
+        seat.leader = ahead.map(|(.., robot)| robot);
+        if plan.queues[seat.queue].chain.is_some() {
+            seat.place = seat.rank - 1;
+        }
+        last = Some((seat.queue, seat.rank, seat.robot.clone()));
+    }
+    seats
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::organise;
+
+    fn plan(name: &str) -> Plan {
+        let path = format!("{}/../../config/formations/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+        trench_plan::parse(&path, &std::fs::read_to_string(&path).unwrap()).unwrap()
+    }
+
+    fn team(points: &[(f64, f64)]) -> Vec<(String, Vector2<f64>)> {
+        let robot = |(index, &(x, y)): (usize, &(f64, f64))| (format!("robot{}", index + 1), Vector2::new(x, y));
+        points.iter().enumerate().map(robot).collect()
+    }
+
+    fn told(seats: &[Seated]) -> Vec<(&str, usize, usize, &str)> {
+        let leader = |seat: &Seated| seat.leader.as_deref().unwrap_or("").to_owned();
+        let told = |seat| (seat, leader(seat));
+        let told: Vec<(&Seated, String)> = seats.iter().map(told).collect();
+        told.into_iter()
+            .map(|(seat, leader)| {
+                let leader = seats.iter().find(|other| other.robot == leader).map_or("", |other| other.robot.as_str());
+                (seat.robot.as_str(), seat.rank, seat.place, leader)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_chain_closes_up_and_takes_a_robot_in_where_it_is() {
+        let plan = plan("column");
+        let robots = team(&[(-0.1, 0.0), (-0.5, 0.1), (-0.8, 0.0), (-1.2, 0.0)]);
+        let seats = organise(&plan, &robots, &[], 0.2).unwrap();
+        let three = without(&plan, &seats, |robot| robot == "robot2");
+        let closed = [("robot1", 1, 0, ""), ("robot3", 2, 1, "robot1"), ("robot4", 3, 2, "robot3")];
+        assert_eq!(told(&three), closed);
+        let positions: BTreeMap<String, Vector2<f64>> = robots.into_iter().collect();
+        let again = with(&plan, &three, ("robot2", positions["robot2"]), &positions).unwrap();
+        assert_eq!(again, seats, "it comes back where it was");
+        let behind = with(&plan, &three, ("robot2", Vector2::new(-1.9, 0.3)), &positions).unwrap();
+        assert_eq!(told(&behind)[3], ("robot2", 4, 3, "robot4"));
+        let ahead = with(&plan, &three, ("robot2", Vector2::new(0.05, 0.0)), &positions).unwrap();
+        assert_eq!(told(&ahead)[..2], [("robot2", 1, 0, ""), ("robot1", 2, 1, "robot2")]);
+        assert_eq!(with(&plan, &seats, ("robot5", Vector2::zeros()), &positions), None, "four places are taken");
+    }
+
+    #[test]
+    fn at_vertices_everybody_stays() {
+        let plan = plan("square");
+        let robots = team(&[(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)]);
+        let seats = organise(&plan, &robots, &[], 0.2).unwrap();
+        let positions: BTreeMap<String, Vector2<f64>> = robots.into_iter().collect();
+        for robot in ["robot1", "robot2", "robot3", "robot4"] {
+            let three = without(&plan, &seats, |name| name == robot);
+            let kept = |seat: &Seated| seats.iter().any(|old| old.robot == seat.robot && old.place == seat.place);
+            assert!(three.len() == 3 && three.iter().all(kept));
+            let again = with(&plan, &three, (robot, positions[robot]), &positions).unwrap();
+            let place = |seats: &[Seated]| -> BTreeMap<String, (usize, usize)> {
+                seats.iter().map(|seat| (seat.robot.clone(), (seat.queue, seat.place))).collect()
+            };
+            assert_eq!(place(&again), place(&seats), "{robot} gets its own place back");
+        }
+    }
+}
