@@ -7,6 +7,7 @@ mod plot;
 mod rounded;
 mod router;
 mod sim;
+mod stop;
 mod view;
 
 use clap::Parser;
@@ -24,6 +25,7 @@ pub(crate) enum Command {
     Plot(plot::Arguments),
     Router(router::Arguments),
     Sim(sim::Arguments),
+    Stop(stop::Arguments),
     View(view::Arguments),
 }
 
@@ -37,6 +39,7 @@ impl Command {
             Self::Plot(arguments) => plot::run(&arguments),
             Self::Router(arguments) => router::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Stop(arguments) => stop::run(&arguments),
             Self::View(arguments) => view::run(&arguments),
         }
     }

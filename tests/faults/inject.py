@@ -1,0 +1,157 @@
+"""What a fault run does over the network, and how it knows the time of the run."""
+
+import math
+import os
+import random
+import socket
+import threading
+import time
+
+import rclpy
+from geometry_msgs.msg import TwistStamped
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.qos import QoSDurabilityPolicy, QoSProfile
+from std_msgs.msg import Bool
+from std_srvs.srv import Trigger
+from trench_msgs.msg import Goal, Goals, RobotState, RunState, TeamState
+
+# Rate of what is published, Hz.
+RATE = 50.0
+
+
+class Ears:
+    """A node of our own that hears when the run began."""
+
+    def __init__(self):
+        rclpy.init()
+        self.node = Node("faults", enable_rosout=False, start_parameter_services=False)
+        self.t0 = None
+        latched = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
+        self.node.create_subscription(RunState, "/run_state", self._heard, latched)
+        self.thread = threading.Thread(target=self._spin, daemon=True)
+        self.thread.start()
+
+    def _spin(self):
+        try:
+            rclpy.spin(self.node)
+        except ExternalShutdownException:
+            pass
+
+    def _heard(self, message: RunState):
+        t0 = message.t0.sec + 1e-9 * message.t0.nanosec
+        if message.state == RunState.RUNNING and t0 > 0.0 and self.t0 is None:
+            self.t0 = t0
+
+    def wait_for_start(self, timeout: float) -> None:
+        """Until robots move."""
+        deadline = time.monotonic() + timeout
+        while self.t0 is None:
+            if time.monotonic() > deadline:
+                raise TimeoutError("the run did not start")
+            time.sleep(0.01)
+
+    def wait_until(self, seconds: float) -> None:
+        """Until so long after t0."""
+        time.sleep(max(0.0, self.t0 + seconds - time.time()))
+
+    def close(self) -> None:
+        """Leaves the network."""
+        rclpy.try_shutdown()
+        self.thread.join(5.0)
+
+
+def _publish(ears: Ears, kind, topic: str, make, seconds: float) -> None:
+    publisher = ears.node.create_publisher(kind, topic, 10)
+    # A writer must be found before it can do harm.
+    time.sleep(0.5)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        publisher.publish(make())
+        time.sleep(1.0 / RATE)
+    ears.node.destroy_publisher(publisher)
+
+
+def _now(ears: Ears):
+    return ears.node.get_clock().now().to_msg()
+
+
+def foreign_command(ears: Ears, seconds: float) -> None:
+    """Somebody else drives robot1, fast."""
+
+    def make():
+        command = TwistStamped()
+        command.header.stamp = _now(ears)
+        command.twist.linear.x = 0.25
+        return command
+
+    _publish(ears, TwistStamped, "/robot1/cmd_vel", make, seconds)
+
+
+def nan_team_state(ears: Ears, seconds: float) -> None:
+    """Somebody else says where robots are: nowhere."""
+
+    def make():
+        team = TeamState()
+        team.header.stamp = _now(ears)
+        for number in range(1, 5):
+            robot = RobotState(name=f"robot{number}", status=RobotState.STATUS_TRACKED)
+            robot.x = robot.y = robot.theta = robot.v = math.nan
+            team.robots.append(robot)
+        return team
+
+    _publish(ears, TeamState, "/team_state", make, seconds)
+
+
+def nan_goals(ears: Ears, seconds: float) -> None:
+    """Somebody else says where robots go: nowhere."""
+
+    def make():
+        goals = Goals(epoch=2**63)
+        goals.header.stamp = _now(ears)
+        for number in range(1, 5):
+            goal = Goal(robot=f"robot{number}", remaining=1e9)
+            goal.position.x = goal.position.y = math.nan
+            goals.goals.append(goal)
+        return goals
+
+    _publish(ears, Goals, "/goals", make, seconds)
+
+
+def garbage_udp(ears: Ears, seconds: float) -> None:
+    """Noise on every DDS port of the domain that a participant may have, half of it behind an RTPS header."""
+    del ears
+    chance = random.Random(1)
+    base = 7400 + 250 * int(os.environ["ROS_DOMAIN_ID"])
+    ports = [base, base + 1, *range(base + 10, base + 60)]
+    header = b"RTPS\x02\x04\x01\x12" + bytes(12)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for port in ports:
+                noise = chance.randbytes(chance.randrange(1, 1400))
+                sender.sendto(header + noise if chance.random() < 0.5 else noise, ("127.0.0.1", port))
+            time.sleep(0.005)
+
+
+def emergency_stop(ears: Ears, seconds: float) -> None:
+    """An emergency stop, which is taken back and reset."""
+    publisher = ears.node.create_publisher(Bool, "/emergency_stop", 10)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        publisher.publish(Bool(data=True))
+        time.sleep(1.0 / RATE)
+    for _ in range(5):
+        publisher.publish(Bool(data=False))
+        time.sleep(1.0 / RATE)
+    client = ears.node.create_client(Trigger, "/rf_bridge/reset")
+    client.wait_for_service(timeout_sec=2.0)
+    client.call_async(Trigger.Request())
+    time.sleep(0.2)
+    ears.node.destroy_publisher(publisher)
+
+
+INJECTIONS = {
+    function.__name__: function
+    for function in (foreign_command, nan_team_state, nan_goals, garbage_udp, emergency_stop)
+}

@@ -1,0 +1,283 @@
+"""Judges a fault run from its bag: ground truth and diagnostics."""
+
+import bisect
+import math
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
+
+# s, from a fault's beginning to the diagnostic that names it.
+DIAGNOSTIC = 0.5
+# s, from a fault's beginning to standstill where control cannot be safe: 0.25 s of old information, braking from 0.1 m/s.
+STANDSTILL = 0.6
+# m/s, below which a robot stands.
+STANDS = 0.005
+# s, from a fault's end until every robot is driven again, and until the formation stands again.
+RECOVERY, FORMATION = 2.0, 10.0
+# m, of a robot from its goal point in a formation that stands.
+NEAR = 0.04
+# rad/s and m/s, beyond which no command goes.
+LIMITS = (0.31, 5.0)
+# bytes, by which a process may grow in a run.
+GROWTH = 10_000_000
+# s, the longest gap in the bag.
+GAP = 1.0
+# s, within which nodes end when their launcher was killed.
+ORPHANED = 1.0
+OK = b"\x00"
+# With which a second process of a node ends.
+TAKEN = 5
+
+
+@dataclass
+class Verdict:
+    """What came of one fault."""
+
+    fault: str
+    run: str
+    problems: list[str] = field(default_factory=list)
+    diagnosed: float | None = None
+    stood: float | None = None
+    recovered: float | None = None
+    formed: float | None = None
+
+    @property
+    def passed(self) -> bool:
+        """Whether every criterion holds."""
+        return not self.problems
+
+    def line(self) -> str:
+        """For the terminal."""
+        times = [("diagnostic", self.diagnosed), ("still", self.stood), ("driven", self.recovered), ("formed", self.formed)]
+        told = ", ".join(f"{name} {value:.2f} s" for name, value in times if value is not None)
+        return f"{'pass' if self.passed else 'FAIL'}  {self.fault}: {told or '-'}{''.join(f'; {p}' for p in self.problems)}"
+
+
+@dataclass
+class Evidence:
+    """What a run left."""
+
+    bag: Path
+    log: str
+    exit_code: int
+    memory: list[dict[str, int]]
+    alive_after: float | None
+    own_bag: Path
+    binaries: Path
+
+
+class Series:
+    """Values over time."""
+
+    def __init__(self):
+        self.times, self.values = [], []
+
+    def add(self, at: float, value) -> None:
+        """Takes the next."""
+        self.times.append(at)
+        self.values.append(value)
+
+    def between(self, start: float, end: float) -> list:
+        """Pairs of time and value."""
+        first, last = bisect.bisect_left(self.times, start), bisect.bisect_right(self.times, end)
+        return list(zip(self.times[first:last], self.values[first:last]))
+
+    def at(self, time: float):
+        """The last value up to then."""
+        index = bisect.bisect_right(self.times, time) - 1
+        return self.values[index] if index >= 0 else None
+
+
+def seconds(stamp) -> float:
+    """Of a builtin_interfaces/Time."""
+    return stamp.sec + 1e-9 * stamp.nanosec
+
+
+class Run:
+    """A bag as series."""
+
+    def __init__(self, bag: Path):
+        self.truth: dict[str, Series] = {}
+        self.commands: dict[str, Series] = {}
+        self.goals = Series()
+        self.team = Series()
+        self.diagnostics: list[tuple[float, str, bytes]] = []
+        self.contacts: list[tuple[float, str]] = []
+        self.log_times: list[float] = []
+        self.t0 = None
+        self.bed_faults: list[tuple[float, str]] = []
+        for file in sorted(bag.glob("*.mcap")):
+            with open(file, "rb") as stream:
+                reader = make_reader(stream, decoder_factories=[DecoderFactory()])
+                for _, channel, message, value in reader.iter_decoded_messages():
+                    self._take(channel.topic, 1e-9 * message.log_time, value)
+
+    def _take(self, topic: str, at: float, message) -> None:
+        parts = topic.strip("/").split("/")
+        if topic.startswith("/ground_truth/") and parts[-1] == "odom":
+            pose, twist = message.pose.pose, message.twist.twist
+            state = (pose.position.x, pose.position.y, math.hypot(twist.linear.x, twist.linear.y), twist.angular.z)
+            self.truth.setdefault(parts[1], Series()).add(seconds(message.header.stamp), state)
+            self.log_times.append(at)
+        elif topic == "/ground_truth/contacts":
+            self.contacts += [(seconds(message.header.stamp), status.message) for status in message.status]
+        elif parts[-1] == "cmd_vel":
+            self.commands.setdefault(parts[0], Series()).add(at, (message.twist.linear.x, message.twist.angular.z))
+        elif topic == "/goals":
+            if all(math.isfinite(goal.position.x) for goal in message.goals):
+                goals = {goal.robot: (goal.position.x, goal.position.y) for goal in message.goals}
+                self.goals.add(seconds(message.header.stamp), goals)
+        elif topic == "/run_state" and message.state == 2 and seconds(message.t0) > 0.0:
+            self.t0 = self.t0 or seconds(message.t0)
+        elif topic == "/diagnostics":
+            for status in message.status:
+                level = status.level if isinstance(status.level, bytes) else bytes([status.level])
+                self.diagnostics.append((at, f"{status.name}: {status.message}", level))
+                if status.name.endswith("testbed: faults"):
+                    self.bed_faults.append((at, status.message))
+
+    def bed_window(self, kind: str, nth: int) -> tuple[float, float] | None:
+        """When the nth fault of a kind was in force, as the bed says."""
+        windows, since = [], None
+        for at, message in self.bed_faults:
+            active = kind in message.split(", ")
+            if active and since is None:
+                since = at
+            elif not active and since is not None:
+                windows.append((since, at))
+                since = None
+        return windows[nth] if nth < len(windows) else None
+
+    def distance(self, robot: str, at: float) -> float | None:
+        """Of a robot from its goal point."""
+        goals, state = self.goals.at(at), self.truth[robot].at(at)
+        if not goals or robot not in goals or state is None:
+            return None
+        return math.hypot(goals[robot][0] - state[0], goals[robot][1] - state[1])
+
+    def is_driven(self, robot: str, at: float) -> bool:
+        """Whether it is told to move, or is where it is to be."""
+        command, distance = self.commands[robot].at(at), self.distance(robot, at)
+        return (command is not None and command != (0.0, 0.0)) or (distance is not None and distance < NEAR)
+
+
+def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
+    """A verdict on each fault of the run."""
+    bag = Run(evidence.bag)
+    counts: dict[str, int] = {}
+    for fault in run["faults"]:
+        if "bed" not in fault:
+            continue
+        kind = fault["bed"]["kind"]
+        window = bag.bed_window(kind, counts.get(kind, 0))
+        counts[kind] = counts.get(kind, 0) + 1
+        windows.append((fault, *(window or (0.0, 0.0))))
+    verdicts = [one(bag, run, fault, began, ended, evidence) for fault, began, ended in windows]
+    general = whole(bag, run, evidence)
+    for verdict in verdicts:
+        verdict.problems += general
+    return verdicts
+
+
+def one(bag: Run, run: dict, fault: dict, began: float, ended: float, evidence: Evidence) -> Verdict:
+    """A verdict on one fault."""
+    verdict = Verdict(fault["name"], run["name"])
+    if began == 0.0:
+        verdict.problems.append("it never began")
+        return verdict
+    contacts = [text for at, text in bag.contacts if began <= at <= ended + FORMATION]
+    if contacts:
+        verdict.problems.append(f"contact: {contacts[0]}")
+    diagnose(bag, fault, began, evidence, verdict)
+    if fault.get("ends"):
+        if evidence.alive_after is None or evidence.alive_after > ORPHANED:
+            verdict.problems.append(f"nodes lived on for {evidence.alive_after} s")
+        verdict.stood = standstill(bag, sorted(bag.truth), began, began + ORPHANED)
+        return verdict
+    if "double" in fault and fault["code"] != TAKEN:
+        verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
+    stopped = sorted(bag.truth) if fault.get("stops") else fault.get("halts", [])
+    if stopped:
+        verdict.stood = standstill(bag, stopped, began, ended)
+        if verdict.stood is None or verdict.stood > STANDSTILL:
+            verdict.problems.append(f"{', '.join(stopped)} did not stand within {STANDSTILL} s")
+    recover(bag, ended, verdict)
+    return verdict
+
+
+def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
+    """When the fault was named."""
+    pattern = fault.get("says")
+    if pattern is None:
+        return
+    if pattern == "launcher":
+        if not re.search(r"process has died", evidence.log):
+            verdict.problems.append("the launcher does not name it")
+        return
+    named = (at for at, text, level in bag.diagnostics if at >= began and level != OK and re.search(pattern, text))
+    first = next(named, None)
+    verdict.diagnosed = None if first is None else first - began
+    if first is None or verdict.diagnosed > DIAGNOSTIC:
+        verdict.problems.append(f"no diagnostic like {pattern!r} within {DIAGNOSTIC} s")
+
+
+def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float | None:
+    """How long after the beginning the last of the robots stood for the rest of the fault; none if it never did."""
+    latest = 0.0
+    for robot in robots:
+        moving = [at for at, state in bag.truth[robot].between(began, ended) if state[2] > STANDS or abs(state[3]) > 0.1]
+        if moving and moving[-1] > ended - 0.04:
+            return None
+        latest = max(latest, moving[-1] - began if moving else 0.0)
+    return latest
+
+
+def recover(bag: Run, ended: float, verdict: Verdict) -> None:
+    """When all robots were driven again, and when the formation stood."""
+    steps = [0.05 * step for step in range(int(FORMATION / 0.05))]
+    robots = sorted(bag.truth)
+    driven = next((step for step in steps if all(bag.is_driven(robot, ended + step) for robot in robots)), None)
+    verdict.recovered = driven
+    if driven is None or driven > RECOVERY:
+        verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
+
+    def stands(at: float) -> bool:
+        distances = [bag.distance(robot, at) for robot in robots]
+        return all(distance is not None and distance < NEAR for distance in distances)
+
+    last = bag.team.times[-1] if bag.team.times else max(series.times[-1] for series in bag.truth.values())
+    verdict.formed = next((step for step in steps if ended + step <= last and stands(ended + step)), None)
+    if verdict.formed is None:
+        far = {robot: bag.distance(robot, min(ended + FORMATION, last)) for robot in robots}
+        verdict.problems.append(f"the formation did not stand within {FORMATION} s: {far}")
+
+
+def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
+    """What is wrong with the run as a whole."""
+    problems = []
+    for robot, series in bag.commands.items():
+        bad = [value for value in series.values if not all(map(math.isfinite, value))]
+        if bad:
+            problems.append(f"a command for {robot} is not finite: {bad[0]}")
+        foreign = any(fault.get("publish") == "foreign_command" for fault in run["faults"])
+        beyond = [value for value in series.values if abs(value[0]) > LIMITS[0] or abs(value[1]) > LIMITS[1]]
+        if beyond and not foreign:
+            problems.append(f"a command for {robot} is beyond its limits: {beyond[0]}")
+    victims = {fault.get("kill", "").split("/")[-1] for fault in run["faults"]} - {""}
+    for label, status in re.findall(r"\[([\w/.-]+)\]: process has died \[pid \d+, ([^\]]*)\]", evidence.log):
+        if label.rsplit("-", 1)[0] not in victims and "operator" not in label:
+            problems.append(f"{label} died too: {status}")
+    if not any(fault.get("ends") for fault in run["faults"]) and evidence.exit_code != 0:
+        problems.append(f"the run ended with {evidence.exit_code}")
+    if len(evidence.memory) == 2:
+        before, after = evidence.memory
+        for label in before.keys() & after.keys():
+            if after[label] - before[label] > GROWTH:
+                problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
+    gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
+    if not gaps or max(gaps) > GAP:
+        problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")
+    return problems
