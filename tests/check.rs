@@ -54,8 +54,8 @@ fn what_cannot_be_read_is_named_with_its_line() {
     );
     refused(
         &["config/cameras/overhead.yaml"],
-        "trench check: config/cameras/overhead.yaml: is no formation (queues:), launch (launch:) or parameter file \
-         (ros__parameters:); check one of these\n",
+        "trench check: config/cameras/overhead.yaml: is no formation (queues:), launch (launch:), scenario (kind:) or parameter \
+         file (ros__parameters:); check one of these\n",
     );
     refused(
         &["tests/check/none.yaml"],

@@ -109,6 +109,7 @@ def nearest(folder, ours):
         ((_, distances), best, median) = timed(ask, 5, len(points))
         report(f"nearest: polyline of {pieces}, anywhere", ours, best, median)
         report(f"nearest: polyline of {pieces}, along a way", ours, best, median)
+        report(f"nearest: polyline of {pieces}, warm", ours, best, median)
         report(f"nearest: spline of {pieces}, anywhere", ours, best, median)
         report(f"nearest: spline of {pieces}, along a way", ours, best, median)
         mine = np.array(rows(folder, f"polyline_{pieces}.txt"))[:, 2]

@@ -8,7 +8,7 @@ use clap::Parser;
 use gather::{CheckError, Gathered, gather};
 use kind::kind;
 use std::process::ExitCode;
-use trench_check::{Report, Verdict, controller, formation};
+use trench_check::{Report, Verdict, controller, formation, scenario};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -18,13 +18,13 @@ Exit codes:
 
 /// Judges configuration by the theory, before anything moves: gains, potentials, zones, room, chains.
 ///
-/// Files are formation files, parameter files, launch files, in any number: formations are judged for the robots that the
+/// Files are formation files, parameter files, launch files, scenario files, in any number: formations are judged for the robots that the
 /// other files describe, or else for the controller's defaults. Each verdict names the equation that decides
 /// (docs/check.md).
 #[derive(Parser)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
-    /// Formation, parameter and launch files, and arguments of the launch files.
+    /// Formation, parameter, launch and scenario files, and arguments of the launch files.
     #[arg(required = true, value_name = "FILE | NAME:=VALUE")]
     words: Vec<String>,
     /// Prints the verdicts as JSON.
@@ -51,13 +51,16 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn judge(arguments: &Arguments) -> Result<Report, CheckError> {
-    let Gathered { controllers, formations, team } = gather(&arguments.words)?;
+    let Gathered { controllers, formations, scenarios, team } = gather(&arguments.words)?;
     let mut verdicts: Vec<Verdict> = Vec::new();
     for one in &controllers {
         verdicts.extend(controller(one)?);
     }
     for (name, plan) in &formations {
         verdicts.extend(formation(name, plan, &team));
+    }
+    for (name, one) in &scenarios {
+        verdicts.extend(scenario(name, one));
     }
     Ok(Report::new(verdicts))
 }

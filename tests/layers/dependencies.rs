@@ -18,7 +18,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("trench_core", &["trench_config", "trench_msgs"]),
     ("trench_sim", &["trench_optics", "trench_radio"]),
     ("trench_plan", &["trench_config", "trench_expression", "trench_formation", "trench_msgs"]),
-    ("trench_check", &["trench_config", "trench_formation", "trench_plan"]),
+    ("trench_check", &["trench_config", "trench_formation", "trench_plan", "trench_scenario"]),
     ("trench_scenario", &["trench_config", "trench_formation", "trench_plan"]),
     ("trench_bag", &["trench_config", "trench_core", "trench_msgs", "trench_rosidl"]),
     ("trench_journal", &["trench_bag", "trench_config", "trench_core", "trench_msgs"]),

@@ -1,14 +1,16 @@
 //! Configuration against the theory, before anything moves: what `trench check` says.
 //!
-//! Everything here takes what has been read (parameters, plans) and gives [`Verdict`]s: what was looked at, whether it holds,
+//! Everything here takes what has been read (parameters, plans, scenarios) and gives [`Verdict`]s: what was looked at, whether it holds,
 //! the equation that decides. Nothing reads a file.
 
 mod chain;
 mod controller;
 mod direction;
+mod gains;
 mod potential;
 mod queue;
 mod report;
+mod scenario;
 mod team;
 mod verdict;
 mod zones;
@@ -19,6 +21,7 @@ pub use direction::{Approach, direction};
 pub use potential::potential;
 pub use queue::formation;
 pub use report::Report;
+pub use scenario::scenario;
 pub use team::{Team, team};
 pub use verdict::Verdict;
 pub use zones::zones;

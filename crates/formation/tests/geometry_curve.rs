@@ -206,6 +206,9 @@ proptest! {
         prop_assert!(foot.distance <= sampled + 1e-12);
         prop_assert!(foot.distance >= sampled - curve.length() / f64::from(samples));
         prop_assert!((curve.at(foot.arc_length).point - foot.point).norm() < 1e-12);
+        for guess in [0.0, foot.arc_length, 0.37 * curve.length(), curve.length()] {
+            prop_assert_eq!(curve.nearest_from(point, guess), foot, "from {}", guess);
+        }
         let set = curve.nearest_all(point);
         prop_assert!(set.feet.iter().any(|other| (other.point - foot.point).norm() < 1e-9));
         prop_assert!(set.feet.iter().all(|other| other.distance < foot.distance + 2e-9 * (1.0 + foot.distance)));

@@ -5,6 +5,7 @@ use trench_formation::Vector2;
 use trench_formation::curve::CurveShape;
 use trench_formation::kinematics::{PointState, Pose};
 use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
+use trench_formation::stability::TwoGainLaw;
 use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::Zoning;
 
@@ -139,7 +140,7 @@ pub struct Figure {
 }
 
 /// Kinds of pictures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drawing {
     /// Paths.
     Trajectories,
@@ -157,8 +158,18 @@ pub enum Drawing {
     Speeds,
     /// Si(x) and Si(2x)/2 (4.2.1), which need no run.
     SineIntegrals,
+    /// S1 of (3.9) or S2 of (3.10) (4.2.3), which need no run.
+    CurvatureTrends(TwoGainLaw),
+    /// Where phi = -K4/K2 sin(2 phi) (4.3.1), about the ratio beyond which it has more solutions than 0. Needs no run.
+    Solutions {
+        /// c1 or c2.
+        critical: f64,
+    },
     /// The stable wedge of 4.3.1, which needs no run.
-    StableWedge,
+    StableWedge {
+        /// K2 up to which it is drawn, 1/s; negative for the other half of the plane.
+        most: f64,
+    },
 }
 
 /// A robot's place in a scenario.

@@ -79,6 +79,14 @@ fn obstacles() {
     check("7.11.yaml", rectangle, "- {disc: [0.0, 2.0], radius: 0.0}", &["obstacles[0].radius", "not positive"]);
     check("7.11.yaml", rectangle, "- {disc: [.inf, 2.0], radius: 1.0}", &["obstacles[0].disc[0]", "not finite"]);
     check("7.11.yaml", "{pole: 0.0, cut: 1.0", "{pole: 2.0, cut: 1.0", &["obstacle_potential.cut", "farther out"]);
+    let euler = "method: semi_implicit_euler";
+    check("7.11.yaml", euler, &format!("{euler}\nsafety: {{body_radius: 0.1}}"), &["safety", "give limits"]);
+    check(
+        "7.11.yaml",
+        euler,
+        &format!("{euler}\nlimits: {{speed: 0.0, acceleration: 1.0}}"),
+        &["limits.speed", "not positive"],
+    );
 }
 
 #[test]

@@ -11,6 +11,7 @@ use trench_core::Files;
 use trench_harness::{Disk, LoadError, catalog};
 use trench_launch::Process;
 use trench_plan::Plan;
+use trench_scenario::Scenario;
 
 /// A file that cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +33,8 @@ pub(super) struct Gathered {
     pub(super) controllers: Vec<Controller>,
     /// By file.
     pub(super) formations: Vec<(String, Plan)>,
+    /// By file.
+    pub(super) scenarios: Vec<(String, Scenario)>,
     /// The robots that take the formations up.
     pub(super) team: Team,
 }
@@ -44,7 +47,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let arguments: Vec<(String, String)> = words.iter().filter_map(|word| name_and_value(word).ok()).collect();
     let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
     let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
-    let (mut controllers, mut formations, mut robots) = (Vec::new(), Vec::new(), None);
+    let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
     let mut parameter_files: Vec<(String, String)> = Vec::new();
     for path in files {
         let name = path.display().to_string();
@@ -52,6 +55,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
         match kind(&name, &text)? {
             Kind::Formation => formations.push((name.clone(), trench_plan::parse(&name, &text)?)),
             Kind::Parameters => parameter_files.push((name, text)),
+            Kind::Scenario => scenarios.push((name.clone(), trench_scenario::parse(&name, &text)?)),
             Kind::Launch => {
                 let known: Vec<String> =
                     trench_launch::arguments(path)?.into_iter().map(|argument| argument.name).collect();
@@ -72,7 +76,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     if !parameter_files.is_empty() {
         controllers.push(default);
     }
-    Ok(Gathered { controllers, formations, team })
+    Ok(Gathered { controllers, formations, scenarios, team })
 }
 
 /// The controller that parameter files describe: in any namespace, with defaults for what they leave out.

@@ -12,6 +12,8 @@ pub(super) enum Kind {
     Launch,
     /// `ros__parameters:` under each key.
     Parameters,
+    /// `kind:`
+    Scenario,
 }
 
 /// The kind of the file called `file`.
@@ -27,11 +29,15 @@ pub(super) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
     if has_parameters(&root) {
         return Ok(Kind::Parameters);
     }
+    if map.opt_node("kind").is_some() {
+        return Ok(Kind::Scenario);
+    }
     Err(ConfigError {
         origin: Origin::new(file, 0),
         key: String::new(),
         value: String::new(),
-        problem: "is no formation (queues:), launch (launch:) or parameter file (ros__parameters:)".to_owned(),
+        problem: "is no formation (queues:), launch (launch:), scenario (kind:) or parameter file (ros__parameters:)"
+            .to_owned(),
         remedy: "check one of these".to_owned(),
     })
 }
@@ -57,6 +63,7 @@ mod tests {
         check("launch:\n- node: {exec: a}\n", Kind::Launch);
         check("/**/testbed:\n  ros__parameters: {plant: ideal}\n", Kind::Parameters);
         check("/robot1:\n  formation_controller:\n    ros__parameters: {law: robust}\n", Kind::Parameters);
+        check("name: a\nkind: regulation\n", Kind::Scenario);
         let error = kind("a.yaml", "camera: 1\n").unwrap_err().to_string();
         assert!(error.starts_with("a.yaml: is no formation (queues:)"), "{error}");
     }

@@ -41,7 +41,17 @@ pub(crate) fn measure(output: &mut Output) -> Result<(), Box<dyn Error>> {
                 &format!("{kind}_{pieces}.txt"),
                 feet.iter().map(|foot| vec![foot.point.x, foot.point.y, foot.distance]),
             )?;
-            output.time(&format!("nearest: {kind} of {pieces}, along a way"), 15, QUERIES, || all(&way));
+            let cold = output.time(&format!("nearest: {kind} of {pieces}, along a way"), 15, QUERIES, || all(&way));
+            let warm = output.time(&format!("nearest: {kind} of {pieces}, warm"), 15, QUERIES, || {
+                let mut last = 0.0;
+                let mut next = |point: &Vector2<f64>| {
+                    let foot = curve.nearest_from(*point, last);
+                    last = foot.arc_length;
+                    foot
+                };
+                way.iter().map(&mut next).collect::<Vec<_>>()
+            });
+            assert_eq!(cold, warm, "a warm start changes nothing");
         }
     }
     Ok(())

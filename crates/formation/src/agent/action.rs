@@ -54,6 +54,8 @@ pub enum RemedyState {
     Suspended,
     /// On the way out of the hull of this id.
     Escaping(u32),
+    /// On a way round teammates ahead, or what no guard helps against.
+    Led,
 }
 
 /// What a robot does until the next tick.

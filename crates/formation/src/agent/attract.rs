@@ -1,12 +1,11 @@
 //! What draws a robot: its goal or nearest point, unless a remedy asks for something else.
 use super::remedy::{Asked, Drawn, Sight};
 use super::surroundings::Moment;
-use super::{Agent, Encroaching, Surroundings};
+use super::{Agent, Surroundings};
 use crate::Vector2;
 use crate::curve::Foot;
-use crate::hull::{ApparentObstacle, HullError, Outline};
 use crate::laws::{Attracting, GoalMotion};
-use crate::seek::{Fragments, LeaderView, Sought, apparent_obstacles};
+use crate::seek::{LeaderView, Sought};
 use crate::trench::Trench;
 
 /// The point that draws a robot.
@@ -40,7 +39,8 @@ impl<T: Trench> Agent<T> {
         let deviation = (foot.position - robot).norm();
         let asked = match &self.settings.remedies {
             Some(remedies) => {
-                let sight = Sight { remedies, potential: &self.settings.potential, around, moment, step };
+                let (potential, zoning) = (&self.settings.potential, &self.settings.zoning);
+                let sight = Sight { remedies, potential, zoning, around, moment, step };
                 self.remedy.update(&sight, robot, drawn)
             }
             None => Asked::Attraction,
@@ -66,25 +66,5 @@ impl<T: Trench> Agent<T> {
         });
         let whole = (0.0, around.curve.length());
         self.seeker.seek(&self.settings.seeking, &moment.segment, (whole, &self.fragments), robot, leader)
-    }
-
-    /// Steps (1) to (3) of 7.5.2.
-    pub(super) fn find_fragments(&self, around: &Surroundings<'_>) -> Result<Fragments, HullError> {
-        let whole = (0.0, around.curve.length());
-        let segment = around.moment(0.0).segment;
-        let settings = &self.settings;
-        let find = |obstacles: &[ApparentObstacle]| {
-            let outlines: Vec<Outline<'_>> = obstacles.iter().map(|obstacle| obstacle.shape.outline()).collect();
-            Fragments::find(&segment, whole, &outlines, settings.potential.cut(), settings.seeking.room)
-        };
-        Ok(match settings.encroaching {
-            Encroaching::Nothing => Fragments::whole(whole),
-            Encroaching::Obstacles => find(around.apparent),
-            Encroaching::ObstaclesAndRobots(radius) => {
-                let leader = around.leader.map(|leader| leader.state.position);
-                let robots: Vec<Vector2<f64>> = around.ahead.iter().map(|robot| robot.position).chain(leader).collect();
-                find(&apparent_obstacles(around.real, &robots, radius, settings.clearance)?)
-            }
-        })
     }
 }

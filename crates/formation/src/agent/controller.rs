@@ -1,5 +1,6 @@
 //! One robot's controller from tick to tick.
 use super::attract::Attracted;
+use super::encroach::Encroachers;
 use super::remedy::Remedy;
 use super::surroundings::Moment;
 use super::{Action, AgentSettings, Driven, Forces, Method, Surroundings};
@@ -7,7 +8,7 @@ use crate::Vector2;
 use crate::curve::Interval;
 use crate::hull::{Approach, HullError};
 use crate::kinematics::PointState;
-use crate::laws::{Attraction, NearestAttraction, Push, Steered, ZonedAttraction};
+use crate::laws::{Attraction, NearestAttraction, Push, Steered, Terms, ZonedAttraction};
 use crate::seek::{Fragments, Seeker};
 use crate::trench::{Damping, Trench};
 
@@ -22,6 +23,7 @@ pub struct Agent<T> {
     pub(super) seeker: Seeker,
     pub(super) remedy: Remedy,
     pub(super) fragments: Fragments,
+    pub(super) encroachers: Option<Encroachers>,
     /// Time of the last action, s.
     last: Option<f64>,
     sensed: Option<f64>,
@@ -31,7 +33,7 @@ impl<T: Trench> Agent<T> {
     /// A robot that has seen nothing yet.
     pub fn new(settings: AgentSettings<T>) -> Self {
         let (seeker, remedy, fragments) = (Seeker::default(), Remedy::default(), Fragments::default());
-        Self { settings, seeker, remedy, fragments, last: None, sensed: None }
+        Self { settings, seeker, remedy, fragments, encroachers: None, last: None, sensed: None }
     }
 
     /// What it was made with.
@@ -50,7 +52,7 @@ impl<T: Trench> Agent<T> {
     /// # Errors
     /// Robots ahead whose position is not finite, where robots encroach: the fragments stay as they were.
     pub fn sense(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
-        self.fragments = self.find_fragments(around)?;
+        self.find_fragments(around)?;
         let elapsed = self.sensed.map_or(0.0, |sensed| around.time - sensed);
         self.sensed = Some(around.time);
         self.remedy.carry_on(around, elapsed);
@@ -89,7 +91,10 @@ impl<T: Trench> Agent<T> {
         let frame = around.moment(since).motion.at(robot.position);
         let sliding = robot.velocity - frame.velocity;
         let wanted = action.acceleration - frame.acceleration;
-        let cut = limits.admit(sliding, wanted, step);
+        let Forces { trench, zoning, robots, obstacles, .. } = action.forces;
+        let walls = zoning + robots + obstacles;
+        let terms = Terms { walls, attraction: trench, damping: wanted - walls - trench };
+        let cut = limits.saturate(sliding, terms, step);
         action.cut = cut != wanted;
         action.cut_power = (cut - wanted).dot(&sliding);
         action.acceleration = cut + frame.acceleration;

@@ -6,6 +6,7 @@
 mod action;
 mod attract;
 mod controller;
+mod encroach;
 mod remedy;
 mod settings;
 mod surroundings;

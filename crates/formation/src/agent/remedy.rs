@@ -2,10 +2,10 @@
 use super::surroundings::Moment;
 use super::{Remedies, RemedyState, Surroundings};
 use crate::Vector2;
-use crate::avoidance::{Guard, Watch, auxiliary_arc, auxiliary_lines, escape};
+use crate::avoidance::{Guard, Watch, auxiliary_arc, auxiliary_lines, escape, way_round};
 use crate::curve::{Foot, Placed};
 use crate::hull::{Approach, Outline};
-use crate::zoning::ObstaclePotential;
+use crate::zoning::{ObstaclePotential, Zoning};
 
 /// What one robot remembers.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -24,6 +24,8 @@ enum State {
     Suspended { until: f64 },
     /// Inside an obstacle's hull, after a `carrot` that goes along the way ahead.
     Escaping { obstacle: u32, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
+    /// Round teammates ahead, after a `carrot` that goes along the way ahead, until a time at the latest, s.
+    Led { until: f64, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
 }
 
 /// What draws a robot that may be caught.
@@ -35,11 +37,21 @@ pub(super) enum Drawn {
     Goal(Vector2<f64>),
 }
 
+impl Drawn {
+    fn point(self) -> Vector2<f64> {
+        match self {
+            Self::To(foot) => foot.point,
+            Self::Goal(goal) => goal,
+        }
+    }
+}
+
 /// What remedies look at: displacements of obstacles since the tick included.
 #[derive(Clone, Copy)]
 pub(super) struct Sight<'a> {
     pub(super) remedies: &'a Remedies,
     pub(super) potential: &'a ObstaclePotential,
+    pub(super) zoning: &'a Zoning,
     pub(super) around: &'a Surroundings<'a>,
     pub(super) moment: &'a Moment<'a>,
     /// Seconds since the last update.
@@ -71,6 +83,50 @@ impl Sight<'_> {
         self.around.apparent[index].shape.outline().approach(self.seen_by(index, robot))
     }
 
+    /// Least distance from the zone 2 of a robot ahead, m; negative within.
+    fn teammate_gap(&self, robot: Vector2<f64>) -> f64 {
+        let near = self.teammates().map(|other| (other - robot).norm()).fold(f64::INFINITY, f64::min);
+        near - self.zoning.radii().rho_hat
+    }
+
+    fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
+        let leader = self.around.leader.map(|leader| leader.state);
+        self.around.ahead.iter().copied().chain(leader).map(|robot| robot.coasted(self.moment.since).position)
+    }
+
+    /// Moves a `carrot` along the way ahead of a robot that comes after it.
+    fn lead(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut Vec<Vector2<f64>>) {
+        let pace = self.remedies.rising * self.step;
+        if let Some(next) = way.first().copied().filter(|_| (*carrot - robot).norm() < self.potential.cut()) {
+            let ahead = next - *carrot;
+            if ahead.norm() <= pace {
+                way.remove(0);
+            }
+            *carrot += ahead.cap_magnitude(pace);
+        }
+    }
+
+    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles; a rest if there is none.
+    fn led(&self, robot: Vector2<f64>, target: Vector2<f64>) -> State {
+        let radii = self.zoning.radii();
+        let (apart, room) = (0.5 * (radii.rho_underbar + radii.rho_hat), self.potential.pole_with_margin());
+        let is_free = |point: Vector2<f64>| {
+            self.teammates().all(|other| (other - point).norm() >= apart)
+                && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
+        };
+        let patience = self.remedies.watch.patience;
+        match way_round(robot, target, (0.25 * apart, 4.0 * radii.rho_hat), is_free) {
+            Some(way) => {
+                let corners = core::iter::once(&robot).chain(&way).zip(&way);
+                let length: f64 = corners.map(|(from, to)| (to - from).norm()).sum();
+                // Twice what the way takes: what is in the way then may be somewhere else.
+                let until = self.time() + patience + 2.0 * length / self.remedies.rising;
+                State::Led { until, carrot: robot, way }
+            }
+            None => State::Suspended { until: self.time() + patience },
+        }
+    }
+
     fn find(&self, id: u32) -> Option<usize> {
         self.around.apparent.iter().position(|obstacle| obstacle.id == id)
     }
@@ -84,6 +140,7 @@ impl Remedy {
             State::Guarded { obstacle, .. } => RemedyState::Guarded(*obstacle),
             State::Suspended { .. } => RemedyState::Suspended,
             State::Escaping { obstacle, .. } => RemedyState::Escaping(*obstacle),
+            State::Led { .. } => RemedyState::Led,
         }
     }
 
@@ -125,6 +182,8 @@ impl Remedy {
 
     /// Notices that a robot is caught or enclosed, chooses a remedy, and drops it when it has done its work.
     pub(super) fn update(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) -> Asked {
+        let target = drawn.point();
+        let mut held = false;
         match &mut self.state {
             State::Free => self.choose(sight, robot, drawn),
             State::Guarded { obstacle, guard, sunk } => {
@@ -132,39 +191,58 @@ impl Remedy {
                 let seen = sight.find(*obstacle).map_or(robot, |index| sight.seen_by(index, robot));
                 if !guard.shields(seen) {
                     *self = Self::default();
+                } else if *sunk > 0.0 {
+                    self.watch.restart();
+                } else {
+                    // Guards have places of rest of their own.
+                    let deviation = (target - robot).norm();
+                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, true);
                 }
             }
             State::Suspended { until } if sight.time() >= *until => *self = Self::default(),
             State::Suspended { .. } => {}
             State::Escaping { obstacle, carrot, way } => {
                 let cut = sight.potential.cut();
-                let out = sight.find(*obstacle).is_none_or(|index| sight.approach(index, robot).gap >= cut);
-                let pace = sight.remedies.rising * sight.step;
-                if out {
+                if sight.find(*obstacle).is_none_or(|index| sight.approach(index, robot).gap >= cut) {
                     *self = Self::default();
-                } else if let Some(next) = way.first().copied().filter(|_| (*carrot - robot).norm() < cut) {
-                    let ahead = next - *carrot;
-                    if ahead.norm() <= pace {
-                        way.remove(0);
-                    }
-                    *carrot += ahead.cap_magnitude(pace);
+                } else {
+                    sight.lead(robot, carrot, way);
                 }
             }
+            State::Led { until, carrot, way } => {
+                let there = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
+                if there || sight.time() >= *until {
+                    *self = Self::default();
+                } else {
+                    sight.lead(robot, carrot, way);
+                }
+            }
+        }
+        if held {
+            self.state = sight.led(robot, target);
         }
         match &self.state {
             State::Free | State::Guarded { .. } => Asked::Attraction,
             State::Suspended { .. } => Asked::Suspension,
-            State::Escaping { carrot, .. } => Asked::Point(*carrot),
+            State::Escaping { carrot, .. } | State::Led { carrot, .. } => Asked::Point(*carrot),
         }
     }
 
     fn choose(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) {
         let gap = |index: usize| sight.approach(index, robot).gap;
         let nearest = (0..sight.around.apparent.len()).map(|index| (gap(index), index));
-        let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+        let target = drawn.point();
+        let deviation = (target - robot).norm();
+        let settings = &sight.remedies.watch;
+        let crowded = sight.teammate_gap(robot) < settings.radius;
+        let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            if self.watch.is_caught(settings, sight.time(), robot, deviation, crowded) {
+                self.state = sight.led(robot, target);
+            }
+            return;
+        };
         let obstacle = &sight.around.apparent[index];
         let outline = obstacle.shape.outline();
-        let settings = &sight.remedies.watch;
         let suspended = State::Suspended { until: sight.time() + settings.patience };
         if gap < 0.0 {
             let walls: Vec<Outline<'_>> = sight.around.real.iter().map(|real| real.shape.outline()).collect();
@@ -173,19 +251,16 @@ impl Remedy {
             self.state = way.map_or(suspended, |way| State::Escaping { obstacle: obstacle.id, carrot: robot, way });
             return;
         }
-        let target = match drawn {
-            Drawn::To(foot) => foot.point,
-            Drawn::Goal(goal) => goal,
-        };
         let repelled = gap < sight.potential.cut() + settings.radius;
-        if self.watch.is_caught(settings, sight.time(), robot, (target - robot).norm(), repelled) {
+        if self.watch.is_caught(settings, sight.time(), robot, deviation, repelled || crowded) {
             let seen = sight.seen_by(index, robot);
-            self.state = match guard(&sight.moment.segment, drawn, &outline, seen, settings.radius) {
+            let guard = || guard(&sight.moment.segment, drawn, &outline, seen, settings.radius);
+            self.state = match Some(()).filter(|()| repelled && !crowded).and_then(|()| guard()) {
                 Some(guard) => {
                     let sunk = guard.protrusion(&outline, seen).max(0.0);
                     State::Guarded { obstacle: obstacle.id, guard, sunk }
                 }
-                None => suspended,
+                None => sight.led(robot, target),
             };
         }
     }

@@ -54,7 +54,8 @@ pub enum Encroaching {
     Nothing,
     /// Apparent obstacles, up to the cut of their potential.
     Obstacles,
-    /// Robots ahead too (step (1) of 7.5.2): as obstacles of this radius (m), sought anew at every tick.
+    /// Robots ahead too (step (1) of 7.5.2), as obstacles of this radius (m), sought anew at every tick: those that have come to the
+    /// segment, whose repulsive area reaches it. With rho_hat less the obstacles' cut no place is left in anybody's zone 2.
     ObstaclesAndRobots(f64),
 }
 

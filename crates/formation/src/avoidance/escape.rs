@@ -20,20 +20,45 @@ pub fn escape(
     body_radius: f64,
     cut: f64,
 ) -> Option<Vec<Vector2<f64>>> {
-    let grid = Grid::around(hull, robot, body_radius, cut);
+    let grid = Grid::around(hull.points, robot, 0.5 * body_radius, hull.radius + cut);
     let is_free = |point: Vector2<f64>| walls.iter().all(|wall| wall.approach(point).gap >= body_radius);
     let cells = grid.search(&is_free, |point| hull.approach(point).gap >= cut)?;
+    Some(straightened(robot, &cells, &grid, &is_free))
+}
+
+/// Corners of a short way from `robot` to `target` over points that are free, which may go `aside` (m) beyond both. Cells of a grid of
+/// `size` (m) are looked at. Nothing if there is no way.
+pub fn way_round(
+    robot: Vector2<f64>,
+    target: Vector2<f64>,
+    (size, aside): (f64, f64),
+    is_free: impl Fn(Vector2<f64>) -> bool,
+) -> Option<Vec<Vector2<f64>>> {
+    let grid = Grid::around(&[target], robot, size, aside);
+    let cells = grid.search(&is_free, |point| (point - target).norm() <= grid.size)?;
+    let mut way = straightened(robot, &cells, &grid, &is_free);
+    way.push(target);
+    Some(way)
+}
+
+/// The corners of a way over cells that are needed if what is in sight is gone to straight.
+fn straightened(
+    robot: Vector2<f64>,
+    cells: &[Vector2<f64>],
+    grid: &Grid,
+    is_free: &impl Fn(Vector2<f64>) -> bool,
+) -> Vec<Vector2<f64>> {
     let mut way = Vec::new();
     let mut from = robot;
     let mut next = 0;
     while next < cells.len() {
-        let visible = |cell: &Vector2<f64>| is_clear(from, *cell, 0.5 * grid.size, &is_free);
+        let visible = |cell: &Vector2<f64>| is_clear(from, *cell, 0.5 * grid.size, is_free);
         let farthest = cells.iter().rposition(visible).filter(|farthest| *farthest >= next).unwrap_or(next);
         from = cells[farthest];
         way.push(from);
         next = farthest + 1;
     }
-    Some(way)
+    way
 }
 
 /// Whether the straight way is free, looked at every `stride` (m).
@@ -52,11 +77,12 @@ struct Grid {
 }
 
 impl Grid {
-    fn around(hull: &Outline<'_>, robot: Vector2<f64>, body_radius: f64, cut: f64) -> Self {
-        let margin = Vector2::repeat(hull.radius + cut);
-        let low = hull.points.iter().fold(robot, |low, point| low.inf(&(point - margin)));
-        let high = hull.points.iter().fold(robot, |high, point| high.sup(&(point + margin)));
-        let size = (0.5 * body_radius).max((high - low).max() / MOST_CELLS);
+    /// Around `points` and the robot, with `margin` (m) about the points; cells of `size` (m), larger if they would be too many.
+    fn around(points: &[Vector2<f64>], robot: Vector2<f64>, size: f64, margin: f64) -> Self {
+        let margin = Vector2::repeat(margin);
+        let low = points.iter().fold(robot, |low, point| low.inf(&(point - margin)));
+        let high = points.iter().fold(robot, |high, point| high.sup(&(point + margin)));
+        let size = size.max((high - low).max() / MOST_CELLS);
         let cells = |length: f64| libm::ceil(length / size) as i64 + 1;
         let start = (cells(robot.x - low.x), cells(robot.y - low.y));
         let origin = robot - size * Vector2::new(start.0 as f64, start.1 as f64);

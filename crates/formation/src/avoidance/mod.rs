@@ -14,7 +14,7 @@ mod watch;
 
 pub use arc::auxiliary_arc;
 pub use compared::ComparedRepulsion;
-pub use escape::escape;
+pub use escape::{escape, way_round};
 pub use goal_potentials::{GoalPotential, VelocityPotential};
 pub use guard::Guard;
 pub use lines::auxiliary_lines;

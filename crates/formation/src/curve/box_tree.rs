@@ -24,9 +24,9 @@ impl Bounds {
         Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    /// Distance from `point`; infinite if empty.
-    fn distance(&self, point: Vector2<f64>) -> f64 {
-        (self.low - point).sup(&(point - self.high)).sup(&Vector2::zeros()).norm()
+    /// Squared distance from `point`; infinite if empty.
+    fn distance_squared(&self, point: Vector2<f64>) -> f64 {
+        (self.low - point).sup(&(point - self.high)).sup(&Vector2::zeros()).norm_squared()
     }
 
     fn meets(&self, other: &Self) -> bool {
@@ -59,27 +59,50 @@ impl BoxTree {
 
     /// Calls `visit` with every piece whose box is within `reach` of `point`, nearer boxes first; `visit` returns the
     /// reach from then on.
-    pub(super) fn visit_near(&self, point: Vector2<f64>, mut reach: f64, mut visit: impl FnMut(usize) -> f64) {
+    pub(super) fn visit_near(&self, point: Vector2<f64>, reach: f64, mut visit: impl FnMut(usize) -> f64) {
+        self.visit_below(1, point, squared(reach), &mut visit);
+    }
+
+    /// As [`Self::visit_near`] without a limit, but the piece `first` first, and then what is near it in the tree: from a piece
+    /// near the nearest one hardly anything else is looked at.
+    pub(super) fn visit_near_from(&self, first: usize, point: Vector2<f64>, mut visit: impl FnMut(usize) -> f64) {
+        let mut limit = squared(visit(first));
+        let mut node = self.leaves + first;
+        while node > 1 {
+            limit = self.visit_below(node ^ 1, point, limit, &mut visit);
+            node /= 2;
+        }
+    }
+
+    /// Visits what is below `top` and within the root of `limit`; the limit that is left.
+    fn visit_below(
+        &self,
+        top: usize,
+        point: Vector2<f64>,
+        mut limit: f64,
+        visit: &mut impl FnMut(usize) -> f64,
+    ) -> f64 {
         let mut stack = [(0, 0.0); usize::BITS as usize + 1];
-        stack[0] = (1, self.nodes[1].distance(point));
+        stack[0] = (top, self.nodes[top].distance_squared(point));
         let mut used = 1;
         while used > 0 {
             used -= 1;
             let (node, distance) = stack[used];
-            if distance > reach || distance == f64::INFINITY {
+            if distance > limit || distance == f64::INFINITY {
                 continue;
             }
             if node >= self.leaves {
-                reach = visit(node - self.leaves);
+                limit = squared(visit(node - self.leaves));
                 continue;
             }
-            let left = (2 * node, self.nodes[2 * node].distance(point));
-            let right = (2 * node + 1, self.nodes[2 * node + 1].distance(point));
+            let left = (2 * node, self.nodes[2 * node].distance_squared(point));
+            let right = (2 * node + 1, self.nodes[2 * node + 1].distance_squared(point));
             let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
             stack[used] = far;
             stack[used + 1] = near;
             used += 2;
         }
+        limit
     }
 
     /// All pairs (i, j), i < j, of pieces whose boxes meet.
@@ -102,4 +125,9 @@ impl BoxTree {
         pairs.sort_unstable();
         pairs
     }
+}
+
+/// The square of a reach, and a little more than rounding may take: a box as far as the reach is not missed.
+fn squared(reach: f64) -> f64 {
+    reach * reach * (1.0 + 8.0 * f64::EPSILON)
 }

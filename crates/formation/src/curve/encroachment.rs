@@ -14,6 +14,10 @@ pub type Interval = (f64, f64);
 pub fn encroached(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], reach: f64) -> Vec<Interval> {
     let mut found: Vec<Interval> = Vec::new();
     for outline in outlines {
+        let (centre, radius) = outline.disc_around();
+        if segment.nearest(centre).distance >= reach + radius {
+            continue;
+        }
         let excess = |arc_length: f64| outline.approach(segment.at(arc_length).point).gap - reach;
         let mut stack = vec![within];
         while let Some((from, to)) = stack.pop() {
@@ -41,7 +45,7 @@ fn refined((from, to): Interval, excess: &impl Fn(f64) -> f64) -> Option<Interva
         (false, false) => None,
         (starts_inside, _) => {
             let (mut low, mut high) = (from, to);
-            for _ in 0..60 {
+            while high - low > f64::EPSILON * (1.0 + high.abs()) {
                 let middle = 0.5 * (low + high);
                 if (excess(middle) < 0.0) == starts_inside {
                     low = middle;

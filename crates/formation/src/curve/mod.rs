@@ -85,9 +85,14 @@ impl Curve {
         Foot { arc_length, point: jet.point + beyond * tangent, tangent, curvature, distance: 0.0 }
     }
 
+    /// The piece that an arc length lies on.
+    fn piece_at(&self, arc_length: f64) -> usize {
+        self.pieces.partition_point(|piece| piece.offset <= arc_length).saturating_sub(1)
+    }
+
     /// Piece and parameter at an arc length between 0 and the length.
     fn locate(&self, arc_length: f64) -> (usize, f64) {
-        let index = self.pieces.partition_point(|piece| piece.offset <= arc_length).saturating_sub(1);
+        let index = self.piece_at(arc_length);
         let piece = &self.pieces[index];
         let primitive = &self.primitives[piece.primitive];
         let wanted = (arc_length - piece.offset).clamp(0.0, piece.length);

@@ -25,27 +25,50 @@ enum Place {
     After(f64),
 }
 
+/// Distance, piece, parameter.
+type Candidate = (f64, usize, f64);
+
 impl Curve {
     /// A nearest point of the curve: the one of least arc length if there are several on a par to the last bit.
     pub fn nearest(&self, point: Vector2<f64>) -> Foot {
-        let mut best = (f64::INFINITY, 0, self.pieces[0].from);
-        self.tree.visit_near(point, best.0, |index| {
-            let piece = &self.pieces[index];
-            let mut offer = |distance: f64, parameter: f64| {
-                let candidate = (distance, index, parameter);
-                if candidate < best {
-                    best = candidate;
-                }
-                best.0
-            };
-            offer((piece.start - point).norm(), piece.from);
-            let reach = offer((piece.end - point).norm(), piece.to);
-            interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| match minimum {
-                Minimum::At { parameter, distance, .. } => offer(distance, parameter),
-                Minimum::Everywhere { distance } => offer(distance, piece.from),
-            });
+        let mut best = self.none_yet();
+        self.tree.visit_near(point, best.0, |index| self.improve(point, index, &mut best));
+        self.beyond_ends(point, best)
+    }
+
+    /// [`Self::nearest`], faster where `arc_length` (m) is near its result: every piece is looked at that could be nearer, and the result
+    /// is the same.
+    pub fn nearest_from(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
+        let mut best = self.none_yet();
+        self.tree.visit_near_from(self.piece_at(arc_length), point, |index| self.improve(point, index, &mut best));
+        self.beyond_ends(point, best)
+    }
+
+    fn none_yet(&self) -> Candidate {
+        (f64::INFINITY, 0, self.pieces[0].from)
+    }
+
+    /// Takes what a piece has that is nearer than `best`; the distance from then on.
+    fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Candidate) -> f64 {
+        let piece = &self.pieces[index];
+        let mut offer = |distance: f64, parameter: f64| {
+            let candidate = (distance, index, parameter);
+            if candidate < *best {
+                *best = candidate;
+            }
             best.0
+        };
+        offer((piece.start - point).norm(), piece.from);
+        let reach = offer((piece.end - point).norm(), piece.to);
+        interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| match minimum {
+            Minimum::At { parameter, distance, .. } => offer(distance, parameter),
+            Minimum::Everywhere { distance } => offer(distance, piece.from),
         });
+        best.0
+    }
+
+    /// The foot, on an extension if that is nearer.
+    fn beyond_ends(&self, point: Vector2<f64>, best: Candidate) -> Foot {
         let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.0);
         let extension = nearer.min_by(|a, b| a.0.total_cmp(&b.0));
         self.foot(extension.map_or(Place::On(best.1, best.2), |(_, place)| place), point)

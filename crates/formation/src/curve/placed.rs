@@ -30,6 +30,11 @@ impl<'a> Placed<'a> {
         self.to_map(self.curve.nearest(self.to_curve(point)))
     }
 
+    /// As [`Curve::nearest_from`].
+    pub fn nearest_from(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
+        self.to_map(self.curve.nearest_from(self.to_curve(point), arc_length))
+    }
+
     /// As [`Curve::nearest_within`].
     pub fn nearest_within(&self, point: Vector2<f64>, interval: Interval) -> Foot {
         self.to_map(self.curve.nearest_within(self.to_curve(point), interval))

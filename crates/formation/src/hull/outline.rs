@@ -72,6 +72,13 @@ impl Outline<'_> {
         other.points.iter().map(|point| point.dot(&axis)).fold(f64::INFINITY, f64::min) - reach
     }
 
+    /// Centre and radius of a disc that holds it, m.
+    pub fn disc_around(&self) -> (Vector2<f64>, f64) {
+        let middle = self.middle();
+        let farthest = self.points.iter().map(|point| (point - middle).norm_squared()).fold(0.0, f64::max);
+        (middle, farthest.sqrt() + self.radius)
+    }
+
     fn middle(&self) -> Vector2<f64> {
         self.points.iter().sum::<Vector2<f64>>() / self.points.len() as f64
     }

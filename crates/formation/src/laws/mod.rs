@@ -12,6 +12,7 @@ mod push;
 mod queue;
 mod rigid_motion;
 mod robust;
+mod saturation;
 mod tracking;
 mod zoned;
 
@@ -29,6 +30,7 @@ pub use push::Push;
 pub use queue::QueueFollowing;
 pub use rigid_motion::RigidMotion;
 pub use robust::Robust;
+pub use saturation::Terms;
 pub use tracking::{GoalMotion, Tracked, Tracking};
 pub use zoned::{Attraction, ZonedAttraction};
 

@@ -7,10 +7,12 @@ mod detour;
 mod limit;
 mod parameters;
 mod scene;
+mod stopping;
 
 pub use detour::Side;
 pub use parameters::{SafetyParameterError, SafetyParameters};
 pub use scene::{Constraint, MovingOutline, Neighbour, Scene};
+pub use stopping::{Line, Passing, Stopping};
 
 use crate::kinematics::{Pose, Twist, wrap};
 use nalgebra::Vector2;

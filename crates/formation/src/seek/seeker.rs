@@ -54,7 +54,7 @@ impl Seeker {
         let whole = [whole];
         let free = far && settings.leader_rule == LeaderRule::WholeSegmentWhileFar;
         let intervals = if free { &whole } else { fragments.intervals() };
-        let search = Search { segment, robot, margin: settings.transit_margin };
+        let search = Search { segment, robot, margin: settings.transit_margin, kept: self.kept };
         let Some(best) = search.nearest(intervals, |_| true) else {
             self.kept = None;
             return Sought::NoFragment;
@@ -65,7 +65,7 @@ impl Seeker {
         let in_zone = |(leader, radii): (LeaderView, &Radii), foot: &Foot| {
             (leader.position - foot.point).norm() < radii.rho_check
         };
-        let mut chosen = match search.keep(self.kept, intervals, best) {
+        let mut chosen = match search.keep(intervals, best) {
             Some(kept) => kept,
             None => match (search.tied(intervals, best), leader, settled) {
                 (None, ..) | (_, None, _) => best,
@@ -97,12 +97,16 @@ struct Search<'a> {
     segment: &'a Placed<'a>,
     robot: Vector2<f64>,
     margin: f64,
+    kept: Option<f64>,
 }
 
 impl Search<'_> {
     /// (7.2) on those of the intervals that count; the first of equals.
     fn nearest(&self, intervals: &[Interval], counts: impl Fn(Interval) -> bool) -> Option<Foot> {
-        let unrestricted = self.segment.nearest(self.robot);
+        let unrestricted = match self.kept {
+            Some(kept) => self.segment.nearest_from(self.robot, kept),
+            None => self.segment.nearest(self.robot),
+        };
         let holds = |(from, to): Interval| from <= unrestricted.arc_length && unrestricted.arc_length <= to;
         if intervals.iter().any(|interval| holds(*interval) && counts(*interval)) {
             return Some(unrestricted);
@@ -119,8 +123,8 @@ impl Search<'_> {
 
     /// The minimum that the robot follows already, unless it is gone or `best` is nearer by more than the margin. A step
     /// along the segment that is shorter than the margin is not worth the question.
-    fn keep(&self, kept: Option<f64>, intervals: &[Interval], best: Foot) -> Option<Foot> {
-        let kept = kept?;
+    fn keep(&self, intervals: &[Interval], best: Foot) -> Option<Foot> {
+        let kept = self.kept?;
         if (best.arc_length - kept).abs() <= self.margin {
             return Some(best);
         }

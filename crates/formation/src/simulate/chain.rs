@@ -1,10 +1,14 @@
 //! Stepping a chain.
+use super::vicinity::Vicinity;
 use super::{ChainScenario, Encroaching, ScenarioError};
 use crate::Vector2;
 use crate::agent::{Action, Agent, Leader, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
 use crate::trench::Trench;
+
+/// Robots below which a share is not worth a thread of its own.
+const LEAST_SHARE: usize = 64;
 
 /// A chain under way.
 #[derive(Debug, Clone)]
@@ -22,10 +26,12 @@ pub struct ChainSimulation<T> {
     pub(super) deviations: Vec<f64>,
     seen_deviations: Vec<f64>,
     pub(super) actions: Vec<Action>,
+    vicinity: Vicinity,
+    threads: usize,
     pub(super) steps: u64,
 }
 
-impl<T: Trench + Clone> ChainSimulation<T> {
+impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
     /// Combines the obstacles and puts the robots at their start.
     ///
     /// # Errors
@@ -50,6 +56,8 @@ impl<T: Trench + Clone> ChainSimulation<T> {
             deviations: vec![f64::INFINITY; count],
             seen_deviations: vec![f64::INFINITY; count],
             actions: Vec::with_capacity(count),
+            vicinity: Vicinity::default(),
+            threads: 1,
             steps: 0,
             scenario,
         };
@@ -58,81 +66,154 @@ impl<T: Trench + Clone> ChainSimulation<T> {
     }
 }
 
-impl<T: Trench> ChainSimulation<T> {
+impl<T: Trench + Send + Sync> ChainSimulation<T> {
     /// Advances by one step.
     ///
     /// # Errors
     /// Robots whose position is no longer finite, where they encroach on the segment.
     pub fn step(&mut self) -> Result<(), ScenarioError> {
-        let ticks = u64::from(self.scenario.steps_per_tick);
-        if self.steps.is_multiple_of(ticks) {
-            self.seen.copy_from_slice(&self.robots);
-            self.seen_deviations.copy_from_slice(&self.deviations);
-            let moves = self.scenario.moves();
-            if moves {
-                let time = self.time();
-                self.real = self.scenario.obstacles_at(time)?;
-                self.obstacles = combine(&self.real, self.scenario.clearance)?;
-                self.velocities = self.scenario.velocities_of(&self.obstacles);
-            }
-            let encroach = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_));
-            if moves || encroach || !self.scenario.carriage.is_parked() {
-                self.sense()?;
-            }
-        }
-        let step = self.scenario.step;
-        let since = (self.steps % ticks) as f64 * step;
+        self.tick()?;
+        let Self { scenario, real, obstacles, velocities, robots, seen, agents, .. } = self;
+        let since = (self.steps % u64::from(scenario.steps_per_tick)) as f64 * scenario.step;
+        let view = View {
+            scenario,
+            time: self.steps as f64 * scenario.step - since,
+            real,
+            apparent: obstacles,
+            velocities,
+            seen,
+            seen_deviations: &self.seen_deviations,
+            vicinity: &self.vicinity,
+        };
         self.actions.clear();
-        for index in 0..self.robots.len() {
-            let action = self.with_surroundings(index, |agent, around, robot| agent.act(around, robot, since, step));
-            if action.deviation.is_finite() {
-                self.deviations[index] = action.deviation;
+        // Until the next tick nobody sees what the others do, so the order in which they act, and on how many threads, is nothing.
+        let size = robots.len().div_ceil(self.threads).max(LEAST_SHARE);
+        if size >= robots.len() {
+            view.act(0, agents, robots, since, &mut self.actions);
+        } else {
+            let done = std::thread::scope(|scope| {
+                let mut running = Vec::new();
+                for (share, (agents, robots)) in agents.chunks_mut(size).zip(robots.chunks_mut(size)).enumerate() {
+                    let view = &view;
+                    running.push(scope.spawn(move || {
+                        let mut actions = Vec::with_capacity(agents.len());
+                        view.act(share * size, agents, robots, since, &mut actions);
+                        actions
+                    }));
+                }
+                running.into_iter().map(std::thread::ScopedJoinHandle::join).collect::<Vec<_>>()
+            });
+            for actions in done {
+                // A panic of a share is one of the simulation.
+                self.actions.extend(actions.unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
             }
-            self.actions.push(action);
         }
-        for (robot, action) in self.robots.iter_mut().zip(&self.actions) {
-            *robot = robot.advanced_semi_implicit(action.acceleration, step);
+        for (deviation, action) in self.deviations.iter_mut().zip(&self.actions) {
+            if action.deviation.is_finite() {
+                *deviation = action.deviation;
+            }
         }
         self.steps += 1;
         Ok(())
     }
 
-    /// Time of the tick in force, s: that of the last step.
-    fn tick_time(&self) -> f64 {
-        (self.steps - self.steps % u64::from(self.scenario.steps_per_tick)) as f64 * self.scenario.step
+    /// Lets the robots' controllers run on up to `threads` threads. The motion is the same, bit for bit.
+    #[must_use]
+    pub fn on_threads(self, threads: usize) -> Self {
+        Self { threads: threads.max(1), ..self }
     }
 
-    fn sense(&mut self) -> Result<(), ScenarioError> {
-        for index in 0..self.robots.len() {
-            self.with_surroundings(index, |agent, around, _| agent.sense(around))?;
+    /// What happens once a tick.
+    fn tick(&mut self) -> Result<(), ScenarioError> {
+        if !self.steps.is_multiple_of(u64::from(self.scenario.steps_per_tick)) {
+            return Ok(());
+        }
+        self.seen.copy_from_slice(&self.robots);
+        self.seen_deviations.copy_from_slice(&self.deviations);
+        let moves = self.scenario.moves();
+        if moves {
+            let time = self.time();
+            self.real = self.scenario.obstacles_at(time)?;
+            self.obstacles = combine(&self.real, self.scenario.clearance)?;
+            self.velocities = self.scenario.velocities_of(&self.obstacles);
+        }
+        self.vicinity.look(&self.scenario, &self.seen, &self.real);
+        let encroach = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_));
+        if moves || encroach || !self.scenario.carriage.is_parked() {
+            self.sense()?;
         }
         Ok(())
     }
 
-    /// Calls `work` with a robot's controller, its surroundings at the last tick, and its state now.
-    fn with_surroundings<R>(
-        &mut self,
-        index: usize,
-        work: impl FnOnce(&mut Agent<T>, &Surroundings<'_>, PointState) -> R,
-    ) -> R {
-        let scenario = &self.scenario;
-        let time = self.tick_time();
-        let (map_from_segment, motion) = scenario.carriage.at(time);
-        let goal = scenario.team_goal.filter(|_| index == 0);
-        let around = Surroundings {
-            time,
-            curve: &scenario.segment,
+    fn sense(&mut self) -> Result<(), ScenarioError> {
+        let Self { scenario, real, obstacles, velocities, seen, agents, .. } = self;
+        let view = View {
+            scenario,
+            time: self.steps as f64 * scenario.step,
+            real,
+            apparent: obstacles,
+            velocities,
+            seen,
+            seen_deviations: &self.seen_deviations,
+            vicinity: &self.vicinity,
+        };
+        for (index, agent) in agents.iter_mut().enumerate() {
+            agent.sense(&view.around(index))?;
+        }
+        Ok(())
+    }
+}
+
+/// What all robots share until the next tick.
+struct View<'a, T> {
+    scenario: &'a ChainScenario<T>,
+    /// Time of the tick, s.
+    time: f64,
+    real: &'a [Obstacle],
+    apparent: &'a [ApparentObstacle],
+    velocities: &'a [Vector2<f64>],
+    seen: &'a [PointState],
+    seen_deviations: &'a [f64],
+    vicinity: &'a Vicinity,
+}
+
+impl<T: Trench> View<'_, T> {
+    /// One step of the robots from the index `first` on.
+    fn act(
+        &self,
+        first: usize,
+        agents: &mut [Agent<T>],
+        robots: &mut [PointState],
+        since: f64,
+        actions: &mut Vec<Action>,
+    ) {
+        let step = self.scenario.step;
+        for (index, (agent, robot)) in (first..).zip(agents.iter_mut().zip(robots)) {
+            let mut action = agent.act(&self.around(index), *robot, since, step);
+            let wanted = action.acceleration;
+            action.acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
+            *robot = robot.advanced_semi_implicit(action.acceleration, step);
+            actions.push(action);
+        }
+    }
+
+    /// The surroundings of a robot at the tick.
+    fn around(&self, index: usize) -> Surroundings<'_> {
+        let (map_from_segment, motion) = self.scenario.carriage.at(self.time);
+        let goal = self.scenario.team_goal.filter(|_| index == 0);
+        Surroundings {
+            time: self.time,
+            curve: &self.scenario.segment,
             map_from_segment,
             motion,
             goal: goal.map(|goal| motion.at(map_from_segment.transform_point(&goal.into()).coords)),
             leader: index
                 .checked_sub(1)
                 .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] }),
-            ahead: &self.seen[..index.saturating_sub(1)],
-            real: &self.real,
-            apparent: &self.obstacles,
-            velocities: &self.velocities,
-        };
-        work(&mut self.agents[index], &around, self.robots[index])
+            ahead: self.vicinity.ahead(self.scenario, self.seen, index),
+            real: self.real,
+            apparent: self.apparent,
+            velocities: self.velocities,
+        }
     }
 }

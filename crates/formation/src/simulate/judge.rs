@@ -58,7 +58,10 @@ const SETTLED: f64 = 5.0;
 ///
 /// # Errors
 /// Scenarios that cannot be run.
-pub fn judge<T: Trench + Clone>(scenario: ChainScenario<T>, standard: &Standard) -> Result<Verdict, ScenarioError> {
+pub fn judge<T: Trench + Clone + Send + Sync>(
+    scenario: ChainScenario<T>,
+    standard: &Standard,
+) -> Result<Verdict, ScenarioError> {
     let starts = scenario.robots.clone();
     let radii = *scenario.zoning.radii();
     if let Some(index) =

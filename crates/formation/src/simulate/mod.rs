@@ -7,12 +7,14 @@
 mod carriage;
 mod chain;
 mod goal_team;
+mod grid;
 mod integrate;
 mod judge;
 mod observe;
 mod random;
 mod regulation;
 mod scenario;
+mod vicinity;
 mod zoned_chain;
 
 pub use crate::agent::{Encroaching, Remedies};

@@ -6,6 +6,7 @@ use crate::curve::Curve;
 use crate::hull::{ApparentObstacle, HullError, Obstacle};
 use crate::kinematics::PointState;
 use crate::laws::{Capability, NearestAttraction};
+use crate::safety::Stopping;
 use crate::seek::{SeekError, SeekSettings};
 use crate::zoning::{ObstaclePotential, Zoning};
 use thiserror::Error;
@@ -56,6 +57,8 @@ pub struct Options {
     pub sidesteps: bool,
     /// Velocities of the obstacles in order, m/s; those missing rest.
     pub obstacle_velocities: Vec<Vector2<f64>>,
+    /// Whether the law ends in the safety filter. Without it nothing but the law keeps robots apart, as in the thesis.
+    pub safety: Option<Stopping>,
 }
 
 /// A scenario that cannot be run.
@@ -112,7 +115,7 @@ impl<T> ChainScenario<T> {
     }
 
     /// Velocities of the obstacles in order, without end, m/s.
-    pub(super) fn velocities(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
+    pub(super) fn velocities(&self) -> impl Iterator<Item = Vector2<f64>> + Clone + '_ {
         self.options.obstacle_velocities.iter().copied().chain(core::iter::repeat(Vector2::zeros()))
     }
 

@@ -26,6 +26,11 @@ impl Barrier {
         Self { strength, exponent, width, continuous: edge == Edge::Continuous, cap }
     }
 
+    /// The largest slope, m/s^2.
+    pub(super) fn cap(&self) -> f64 {
+        self.cap
+    }
+
     /// -dPsi/d(delta) >= 0, m/s^2.
     pub(super) fn slope(&self, delta: f64) -> f64 {
         if delta >= self.width {

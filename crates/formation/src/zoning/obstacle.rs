@@ -61,6 +61,11 @@ impl ObstaclePotential {
         Ok(Self { pole, cut, barrier: Barrier::new(strength, sharpness, cut - pole, edge, full_acceleration) })
     }
 
+    /// The force beyond the pole, which is the largest there is, m/s^2.
+    pub fn full_acceleration(&self) -> f64 {
+        self.barrier.cap()
+    }
+
     /// Gap at which the repulsion begins, m: the clearance that encroaches on segments.
     pub fn cut(&self) -> f64 {
         self.cut

@@ -69,6 +69,11 @@ impl Zoning {
         &self.radii
     }
 
+    /// The force beyond the poles, which is the largest there is, m/s^2.
+    pub fn full_acceleration(&self) -> f64 {
+        self.repulsion.cap()
+    }
+
     /// The zone in which a robot at `distance` (m) is.
     pub fn zone(&self, distance: f64) -> Zone {
         self.radii.zone(distance)

@@ -1,4 +1,5 @@
 //! The chain of 7.10.
+mod bounded;
 mod chain;
 mod scenarios;
 

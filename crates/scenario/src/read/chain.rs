@@ -9,7 +9,8 @@ use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{CurveShape, Placed};
 use trench_formation::hull::{Obstacle, Outline, Shape, combine};
 use trench_formation::kinematics::PointState;
-use trench_formation::laws::{NearestAttraction, ZonedAttraction};
+use trench_formation::laws::{Capability, NearestAttraction, ZonedAttraction};
+use trench_formation::safety::Stopping;
 use trench_formation::seek::{Fragments, LeaderRule, SeekSettings};
 use trench_formation::simulate::{
     Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, ZonedChainScenario,
@@ -74,6 +75,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         map.opt_list("obstacles")?.iter().map(obstacles).collect::<Result<Vec<_>, _>>()?.concat();
     let listed = listed.into_iter().zip(1..).map(|((obstacle, velocity), id)| (Obstacle { id, ..obstacle }, velocity));
     let (obstacles, velocities): (Vec<Obstacle>, Vec<Vector2<f64>>) = listed.unzip();
+    let limits = map.opt_map("limits")?.map(|map| limits(&map)).transpose()?;
     let scenario = ChainScenario {
         segment: curve,
         carriage: map.opt_map("segment_motion")?.map_or(Ok(Carriage::parked()), |map| carriage(&map))?,
@@ -88,6 +90,8 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         encroaching: encroaching(map)?,
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
         options: Options {
+            limits,
+            safety: safety(map, limits)?,
             sidesteps: map.get_or("sidesteps", false)?,
             obstacle_velocities: velocities,
             ..Options::default()
@@ -215,6 +219,26 @@ fn encroaching(map: &Map<'_>) -> Result<Encroaching, ConfigError> {
         0 => Ok(Encroaching::Nothing),
         1 => Ok(Encroaching::Obstacles),
         _ => Ok(Encroaching::ObstaclesAndRobots(positive(map, "body_radius")?)),
+    }
+}
+
+/// What the robots can do.
+fn limits(map: &Map<'_>) -> Result<Capability, ConfigError> {
+    let limits = Capability { speed: positive(map, "speed")?, acceleration: positive(map, "acceleration")? };
+    map.finish()?;
+    Ok(limits)
+}
+
+/// The safety filter, which has to know what the robots can do.
+fn safety(map: &Map<'_>, limits: Option<Capability>) -> Result<Option<Stopping>, ConfigError> {
+    match (map.opt_map("safety")?, limits) {
+        (None, _) => Ok(None),
+        (Some(_), None) => Err(map.error("safety", "needs to know what the robots can do", "give limits, too")),
+        (Some(safety), Some(capability)) => {
+            let radius = positive(&safety, "body_radius")? + not_negative(&safety, "margin", 0.0)?;
+            safety.finish()?;
+            Ok(Some(Stopping { radius, capability }))
+        }
     }
 }
 

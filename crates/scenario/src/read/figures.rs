@@ -3,8 +3,9 @@
 use crate::scenario::{Drawing, Figure, Scenario, Task};
 use trench_config::yaml::Node;
 use trench_config::{ConfigError, did_you_mean};
+use trench_formation::stability::{C1, C2, TwoGainLaw};
 
-const DRAWINGS: [(&str, Drawing); 9] = [
+const DRAWINGS: [(&str, Drawing); 14] = [
     ("trajectories", Drawing::Trajectories),
     ("snapshots", Drawing::Snapshots),
     ("errors", Drawing::Errors),
@@ -13,7 +14,12 @@ const DRAWINGS: [(&str, Drawing); 9] = [
     ("curvatures", Drawing::Curvatures),
     ("speeds", Drawing::Speeds),
     ("sine_integrals", Drawing::SineIntegrals),
-    ("stable_wedge", Drawing::StableWedge),
+    ("curvature_trends_of_3.9", Drawing::CurvatureTrends(TwoGainLaw::Direct)),
+    ("curvature_trends_of_3.10", Drawing::CurvatureTrends(TwoGainLaw::Nominal)),
+    ("solutions_above", Drawing::Solutions { critical: C1 }),
+    ("solutions_below", Drawing::Solutions { critical: C2 }),
+    ("stable_wedge", Drawing::StableWedge { most: 2.0 }),
+    ("negative_wedge", Drawing::StableWedge { most: -2.0 }),
 ];
 
 pub(super) fn read(nodes: &[Node], scenario: &Scenario) -> Result<Vec<Figure>, ConfigError> {

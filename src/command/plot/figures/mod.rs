@@ -1,5 +1,6 @@
 //! The figures that a scenario file asks for, from its run.
 
+mod chapter4;
 mod clip;
 mod diagram;
 mod map;
@@ -13,7 +14,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use select::{Selection, Shown, select};
 use std::f64::consts::{PI, TAU};
 use trench_bag::run::{Pose, Run, distance};
-use trench_formation::stability::{C1, C2, sine_integral};
 use trench_scenario::{Drawing, Figure, Scenario, Task};
 
 const WIDTH: u32 = 820 * UNIT;
@@ -48,8 +48,10 @@ pub(super) fn draw(figure: &Figure, scenario: &Scenario, run: &Run) -> Picture {
             };
             over_time(figure, &followers, "distance to the leader (m); dashed: zone radii", &levels, leader_distance)
         }
-        Drawing::SineIntegrals => sine_integrals(figure),
-        Drawing::StableWedge => stable_wedge(figure),
+        Drawing::SineIntegrals => chapter4::sine_integrals(figure),
+        Drawing::CurvatureTrends(law) => chapter4::curvature_trends(figure, law),
+        Drawing::Solutions { critical } => chapter4::solutions(figure, critical),
+        Drawing::StableWedge { most } => chapter4::wedge(figure, most),
     }
 }
 
@@ -166,33 +168,4 @@ fn misalignment(robot: &Shown<'_>) -> Vec<(f64, f64)> {
 fn curvature(robot: &Shown<'_>) -> Vec<(f64, f64)> {
     let moving = robot.track.poses.iter().filter(|pose| pose.v != 0.0);
     moving.map(|pose| (pose.time, (pose.omega / pose.v).abs())).collect()
-}
-
-/// Fig. 4.1.
-fn sine_integrals(figure: &Figure) -> Picture {
-    let curve = |function: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
-        (-200..=200).map(|step| PI * f64::from(step) / 200.0).map(|x| (x, function(x))).collect()
-    };
-    let [first, second] = [super::style::colour(0), super::style::colour(1)];
-    let curves = [(first, curve(&sine_integral)), (second, curve(&|x| 0.5 * sine_integral(2.0 * x)))];
-    let legend = [("Si(x)".to_owned(), first), ("Si(2x)/2".to_owned(), second)];
-    framed(figure, (&legend, ""), SMALL, |area| {
-        Diagram { names: ["x (rad)", "integral"], window: None, levels: &[0.0] }.draw(area, &curves)
-    })
-}
-
-/// Fig. 4.8: between its edges, K4 = (K3 - K1)/2 against K2.
-fn stable_wedge(figure: &Figure) -> Picture {
-    let edge = |slope: f64| vec![(0.0, 0.0), (2.0, 2.0 * slope)];
-    let [upper, lower] = [super::style::colour(1), super::style::colour(0)];
-    let curves = [(upper, edge(C1)), (lower, edge(C2)), (REFERENCE, edge(0.0))];
-    let legend = [
-        (format!("K4 = {C1:.4} K2"), upper),
-        (format!("K4 = {C2} K2"), lower),
-        ("K3 = K1; stable between the edges".to_owned(), REFERENCE),
-    ];
-    framed(figure, (&legend, ""), SMALL, |area| {
-        let window = Some([0.0, 2.0, -1.5, 5.0]);
-        Diagram { names: ["K2 (1/s)", "K4 = (K3 - K1)/2 (1/s)"], window, levels: &[] }.draw(area, &curves)
-    })
 }

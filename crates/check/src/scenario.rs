@@ -1,0 +1,190 @@
+//! A scenario file: gains, potentials, zones, directions of attraction, room.
+
+use crate::controller::chain_damping;
+use crate::potential::potential;
+use crate::verdict::number;
+use crate::zones::zones;
+use crate::{Approach, Verdict, direction, gains};
+use trench_formation::curve::{Curve, Placed};
+use trench_formation::hull::{Outline, combine};
+use trench_formation::laws::{Capability, Family, Robust};
+use trench_formation::seek::Fragments;
+use trench_formation::simulate::{ChainScenario, Encroaching};
+use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
+
+/// Trenches are looked at up to this distance, m.
+const RANGE: f64 = 100.0;
+
+/// Judges a simulation before it runs. Scenarios of launch files have nothing of their own: check the launch file.
+pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
+    match &scenario.task {
+        Task::Regulating(task) => {
+            task.cases.iter().flat_map(|case| law(&named(subject, &case.name), case.law)).collect()
+        }
+        Task::GoalTracking(task) => {
+            let laws = task.cases.iter().filter_map(|case| match &case.law {
+                GoalLaw::Trench(law) => Some((named(subject, &case.name), law)),
+                GoalLaw::Conventional(_) | GoalLaw::Velocity(_) => None,
+            });
+            laws.flat_map(|(name, law)| {
+                let finding = format!("k = {}: V' = -k |r'|^2", number(law.damping.coefficient));
+                let holds = law.damping.coefficient > 0.0;
+                [
+                    potential(&name, &law.trench, RANGE),
+                    Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)"),
+                ]
+            })
+            .collect()
+        }
+        Task::Directed(task) => directed(subject, task),
+        Task::Nearest(task, _) => nearest(subject, task),
+        Task::Launch(_) => Vec::new(),
+    }
+}
+
+fn named(subject: &str, case: &str) -> String {
+    if case.is_empty() { subject.to_owned() } else { format!("{subject}, case {case}") }
+}
+
+fn law(subject: &str, law: ChosenLaw) -> Vec<Verdict> {
+    match law {
+        ChosenLaw::Robust(gains_of) => vec![gains::gains(subject, "robust", gains_of)],
+        ChosenLaw::Nominal(law) => {
+            vec![gains::gains(subject, "nominal", Robust { k1: law.k1, k2: law.k2, k3: law.k1 })]
+        }
+        ChosenLaw::Direct(law) => vec![gains::gains(subject, "direct", Robust { k1: law.k1, k2: law.k2, k3: law.k1 })],
+        ChosenLaw::Family(law) => {
+            let Family { k1, k2, .. } = law;
+            vec![gains::gains(subject, "family", Robust { k1, k2, k3: k1 }), gains::exponents(subject, &law)]
+        }
+    }
+}
+
+fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
+    let chain = &task.chain;
+    let radii = *chain.law.zoning.radii();
+    let mut verdicts = vec![
+        potential(subject, &chain.law.trench, RANGE),
+        zones(subject, [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar], 0.0),
+        chain_damping(subject, chain.law.damping, chain.law.leader_damping),
+    ];
+    if let Ok(curve) = Curve::new(&task.segment, false, false) {
+        let placed = Placed::new(&curve, Default::default());
+        for (index, (robot, towards)) in chain.robots.iter().zip(&chain.directions).enumerate().skip(1) {
+            let approach = Approach {
+                position: robot.position,
+                velocity: robot.velocity,
+                direction: *towards,
+                damping: chain.law.damping,
+            };
+            verdicts.push(direction(&format!("{subject}, r{}", index + 1), &placed, &approach));
+        }
+        verdicts.push(room(subject, &[(0.0, curve.length())], chain.robots.len(), radii.rho_hat));
+    }
+    verdicts
+}
+
+fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
+    let radii = *task.zoning.radii();
+    let body = body_radius(task).unwrap_or(0.0);
+    let mut verdicts = vec![
+        potential(subject, &task.law.trench, RANGE),
+        zones(subject, [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar], body),
+        chain_damping(subject, task.law.damping, task.law.leader_damping),
+    ];
+    verdicts.extend(task.options.limits.map(|limits| actuators(subject, task, &limits)));
+    if !task.obstacles.is_empty() {
+        verdicts.push(clearance(subject, task, body));
+    }
+    let whole = (0.0, task.segment.length());
+    let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
+    if let Ok(hulls) = combine(&task.obstacles, task.clearance) {
+        let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
+        let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
+        verdicts.push(room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat));
+    }
+    verdicts.push(connection(subject, task));
+    verdicts
+}
+
+/// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
+fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
+    let trench = check_admissibility(&task.law.trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+    let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
+    let largest = [trench, task.zoning.full_acceleration(), obstacles];
+    let (holds, sum) = (limits.fits(largest), number(largest.iter().sum()));
+    let able = number(limits.acceleration);
+    let [trench, zones, obstacles] = largest.map(number);
+    let finding = if holds {
+        format!(
+            "trench {trench}, zones {zones}, obstacles {obstacles}: {sum} m/s^2 at most, robots have {able}; V' <= 0 within limits"
+        )
+    } else {
+        format!(
+            "trench {trench}, zones {zones}, obstacles {obstacles}: up to {sum} m/s^2, but robots have {able}: lower the trench or \
+             full_acceleration until they fit"
+        )
+    };
+    Verdict::new(
+        "limits",
+        subject,
+        holds,
+        finding,
+        "largest Phi' + Psi' + Psi_ob' <= acceleration (9.2, chapter 7 of docs/theory)",
+    )
+}
+
+/// Radius of the robots' bodies, where the scenario says one.
+fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
+    match (task.options.safety, task.encroaching) {
+        (Some(safety), _) => Some(safety.radius),
+        (None, Encroaching::ObstaclesAndRobots(radius)) => Some(radius),
+        (None, _) => None,
+    }
+}
+
+/// Whether a robot passes all gaps that are left between hulls.
+fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: f64) -> Verdict {
+    let holds = task.clearance >= 2.0 * body;
+    let (clearance, width) = (number(task.clearance), number(2.0 * body));
+    let finding = if holds {
+        format!("hulls nearer than {clearance} m are combined, and robots are {width} m wide: they pass what is left")
+    } else {
+        format!(
+            "hulls {clearance} m apart are not combined, but robots are {width} m wide: make the clearance {width} m"
+        )
+    };
+    Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
+}
+
+/// Whether the fragments have a place for every robot.
+fn room(subject: &str, fragments: &[(f64, f64)], robots: usize, rho_hat: f64) -> Verdict {
+    let places: usize = fragments.iter().map(|(from, to)| ((to - from) / rho_hat) as usize + 1).sum();
+    let length: f64 = fragments.iter().map(|(from, to)| to - from).sum();
+    let on = format!("{} m in {} fragments", number(length), fragments.len());
+    let finding = if places >= robots {
+        format!("{on} have {places} places for {robots} robots")
+    } else {
+        format!("{on} have {places} places, but there are {robots} robots: lengthen the segment or move obstacles away")
+    };
+    Verdict::new("room", subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
+}
+
+/// Whether every robot begins within reach of its leader.
+fn connection(subject: &str, task: &ChainScenario<AnyTrench>) -> Verdict {
+    let radii = task.zoning.radii();
+    let distance = |pair: &[trench_formation::kinematics::PointState]| (pair[1].position - pair[0].position).norm();
+    let longest = task.robots.windows(2).map(distance).fold(0.0, f64::max);
+    let lost = task.robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
+    let limit = number(radii.rho_bar);
+    let finding = match lost {
+        None => format!("no robot begins more than {} m from its leader, links reach {limit} m", number(longest)),
+        Some(index) => format!(
+            "r{} begins {} m from its leader, but links reach {limit} m: move it nearer, or order the chain anew",
+            index + 2,
+            number(distance(&task.robots[index..index + 2]))
+        ),
+    };
+    Verdict::new("connection", subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
+}

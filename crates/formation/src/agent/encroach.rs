@@ -1,0 +1,67 @@
+//! Steps (1) to (3) of 7.5.2: what obstacles and robots ahead leave of the segment.
+use super::{Agent, Encroaching, Surroundings};
+use crate::Vector2;
+use crate::hull::{ApparentObstacle, HullError, Obstacle, Outline};
+use crate::seek::{Fragments, apparent_obstacles};
+use crate::trench::Trench;
+use nalgebra::Isometry2;
+
+/// Fragments are sought anew once a robot on the segment has moved this far, m.
+const MOVED: f64 = 0.005;
+
+/// What fragments were found for, where robots encroach.
+#[derive(Debug, Clone)]
+pub(super) struct Encroachers {
+    map_from_segment: Isometry2<f64>,
+    real: Vec<Obstacle>,
+    robots: Vec<Vector2<f64>>,
+}
+
+impl Encroachers {
+    fn still_hold(&self, around: &Surroundings<'_>, robots: &[Vector2<f64>]) -> bool {
+        self.map_from_segment == around.map_from_segment
+            && self.robots.len() == robots.len()
+            && self.robots.iter().zip(robots).all(|(then, now)| (now - then).norm_squared() < MOVED * MOVED)
+            && self.real == around.real
+    }
+}
+
+impl<T: Trench> Agent<T> {
+    pub(super) fn find_fragments(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
+        let whole = (0.0, around.curve.length());
+        match self.settings.encroaching {
+            Encroaching::Nothing => self.fragments = Fragments::whole(whole),
+            Encroaching::Obstacles => self.fragments = self.left_by(around, around.apparent),
+            Encroaching::ObstaclesAndRobots(radius) => {
+                let robots = self.robots_there(around, radius);
+                if self.encroachers.as_ref().is_some_and(|known| known.still_hold(around, &robots)) {
+                    return Ok(());
+                }
+                let all = apparent_obstacles(around.real, &robots, radius, self.settings.clearance)?;
+                self.fragments = self.left_by(around, &all);
+                let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
+                self.encroachers = Some(Encroachers { map_from_segment, real, robots });
+            }
+        }
+        Ok(())
+    }
+
+    fn left_by(&self, around: &Surroundings<'_>, obstacles: &[ApparentObstacle]) -> Fragments {
+        let outlines: Vec<Outline<'_>> = obstacles.iter().map(|obstacle| obstacle.shape.outline()).collect();
+        let (whole, settings) = ((0.0, around.curve.length()), &self.settings);
+        Fragments::find(&around.moment(0.0).segment, whole, &outlines, settings.potential.cut(), settings.seeking.room)
+    }
+
+    /// The robots ahead that have come to the segment: the others are under way, and what they encroach on now says nothing.
+    fn robots_there(&self, around: &Surroundings<'_>, radius: f64) -> Vec<Vector2<f64>> {
+        let segment = around.moment(0.0).segment;
+        let reach = radius + self.settings.potential.cut();
+        let leader = around.leader.map(|leader| leader.state.position);
+        let ahead = around.ahead.iter().map(|robot| robot.position).chain(leader);
+        // A position that is not a number is kept, for the hulls to refuse.
+        let there = |position: &Vector2<f64>| {
+            !(position.x.is_finite() && position.y.is_finite()) || segment.nearest(*position).distance < reach
+        };
+        ahead.filter(there).collect()
+    }
+}

@@ -1,0 +1,97 @@
+//! What bounded actuators leave of a law that comes from a potential (9.2).
+use super::Capability;
+use crate::Vector2;
+
+/// The terms of a law relative to the segment, m/s^2: what comes from potentials, and the rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Terms {
+    /// Repulsion and attraction of zones and obstacles.
+    pub walls: Vector2<f64>,
+    /// Phi' d_hat of the trench.
+    pub attraction: Vector2<f64>,
+    /// -k r' and what else takes power out.
+    pub damping: Vector2<f64>,
+}
+
+impl Capability {
+    /// The law u = walls + attraction + damping within the acceleration and the speed, for a step of `step` (s) at `velocity`.
+    ///
+    /// Damping gives way first, by the largest factor sigma in [0, 1] with |walls + attraction + sigma damping| within the
+    /// acceleration; what would be faster than the speed is damped away. The potential forces stay whole, so that
+    /// V' = sigma (damping . v) - (something >= 0) keeps its sign and A.10, A.12 and A.18 hold as they stand, as long as the
+    /// potential forces alone fit the acceleration: [`Self::fits`]. Otherwise the attraction gives way next, and walls last.
+    pub fn saturate(&self, velocity: Vector2<f64>, terms: Terms, step: f64) -> Vector2<f64> {
+        let walls = terms.walls.cap_magnitude(self.acceleration);
+        let potential = self.extended(walls, terms.attraction);
+        let wanted = self.extended(potential, terms.damping);
+        let next = velocity + step * wanted;
+        // A robot that is within the speed already comes to it by less than the acceleration: the speeds form a convex disc.
+        if next.norm() <= self.speed { wanted } else { self.admit(velocity, wanted, step) }
+    }
+
+    /// Whether potential forces of these largest magnitudes (m/s^2), all in one direction, fit the acceleration.
+    pub fn fits(&self, largest: impl IntoIterator<Item = f64>) -> bool {
+        largest.into_iter().sum::<f64>() <= self.acceleration
+    }
+
+    /// `base`, which fits, and as much of `more` as fits besides.
+    fn extended(&self, base: Vector2<f64>, more: Vector2<f64>) -> Vector2<f64> {
+        let square = more.norm_squared();
+        let whole = base + more;
+        if square == 0.0 || whole.norm_squared() <= self.acceleration * self.acceleration {
+            return whole;
+        }
+        let along = base.dot(&more);
+        let left = (self.acceleration * self.acceleration - base.norm_squared()).max(0.0);
+        let factor = ((along * along + square * left).sqrt() - along) / square;
+        base + factor.clamp(0.0, 1.0) * more
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ROBOT: Capability = Capability { speed: 0.5, acceleration: 2.0 };
+
+    fn vector(most: f64) -> impl Strategy<Value = Vector2<f64>> {
+        (0.0..most, 0.0..core::f64::consts::TAU).prop_map(|(length, angle)| {
+            let (sine, cosine) = libm::sincos(angle);
+            length * Vector2::new(cosine, sine)
+        })
+    }
+
+    proptest! {
+        /// Whatever a law wants, the limits hold, and where its potentials fit them V falls: V' = v . (u - potential forces).
+        #[test]
+        fn limits_hold_and_energy_falls(
+            walls in vector(1.4), attraction in vector(0.6), velocity in vector(0.5), damping in 0.0..20.0_f64,
+        ) {
+            let step = 1e-6; // the limit of the speed is exact up to terms of the order of the step
+            let terms = Terms { walls, attraction, damping: -damping * velocity };
+            let applied = ROBOT.saturate(velocity, terms, step);
+            prop_assert!(applied.norm() <= ROBOT.acceleration * (1.0 + 1e-9));
+            prop_assert!((velocity + step * applied).norm() <= ROBOT.speed * (1.0 + 1e-9));
+            prop_assert!(velocity.dot(&(applied - walls - attraction)) <= 1e-5);
+        }
+
+        #[test]
+        fn limits_hold_beyond_what_fits(walls in vector(9.0), attraction in vector(9.0), velocity in vector(0.5), step in 1e-3..0.05) {
+            let applied = ROBOT.saturate(velocity, Terms { walls, attraction, damping: -5.0 * velocity }, step);
+            prop_assert!(applied.norm() <= ROBOT.acceleration * (1.0 + 1e-9));
+            prop_assert!((velocity + step * applied).norm() <= ROBOT.speed * (1.0 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn what_fits_is_not_touched() {
+        let terms = Terms {
+            walls: Vector2::new(0.5, 0.0),
+            attraction: Vector2::new(0.0, 0.3),
+            damping: Vector2::new(0.1, 0.1),
+        };
+        assert_eq!(ROBOT.saturate(Vector2::zeros(), terms, 0.01), Vector2::new(0.6, 0.4));
+        assert!(ROBOT.fits([1.0, 0.5, 0.5]) && !ROBOT.fits([1.0, 1.0, 0.1]));
+    }
+}

@@ -1,0 +1,81 @@
+//! Random teams: robots, a segment and obstacles from a seed.
+mod chance;
+mod obstacles;
+mod segment;
+mod starts;
+
+use self::chance::Chance;
+use self::obstacles::Field;
+use self::segment::random_segment;
+use self::starts::random_starts;
+use super::{Carriage, ChainScenario, Encroaching, Options, Remedies};
+use crate::Vector2;
+use crate::avoidance::WatchSettings;
+use crate::curve::{Curve, Placed};
+use crate::kinematics::PointState;
+use crate::laws::{Capability, NearestAttraction};
+use crate::safety::Stopping;
+use crate::seek::{LeaderRule, SeekSettings};
+use crate::trench::Hyperbolic;
+use crate::zoning::{Edge, ObstaclePotential, Radii, Sharpness, Zoning};
+use nalgebra::Isometry2;
+
+/// Radius of a robot's body, m.
+pub const BODY_RADIUS: f64 = 0.1;
+/// What the robots of random teams can do.
+pub const CAPABILITY: Capability = Capability { speed: 0.5, acceleration: 2.0 };
+/// Gap from obstacles below which they repel, m.
+const CUT: f64 = 0.5;
+/// rho_clearance, m.
+const CLEARANCE: f64 = 1.0;
+/// The scenario of a seed: 2 to 20 robots at rest, one segment (line, arc or sinusoid), up to six obstacles, concave ones among
+/// them, up to two of which move with at most half of the robots' speed. Gaps between obstacles are at least two clearances, along
+/// the whole way of those that move; no robot begins within its stopping distance of a repulsive zone. Nothing where no place was
+/// found for the robots. Teams may be infeasible: see [`judge`](super::judge).
+pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
+    let mut chance = Chance(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+    let count = 2 + chance.below(19) as usize;
+    let segment = Curve::new(&random_segment(&mut chance, count), false, false).ok()?;
+    let field = Field::random(&mut chance);
+    let placed = Placed::new(&segment, Isometry2::identity());
+    let team_goal = free_point(&placed, &field);
+    let radii = Radii::new(0.4, 1.0, 3.0, 6.0, 10.0).ok()?;
+    let starts = random_starts(&mut chance, count, &field, (&placed, team_goal, &radii))?;
+    let Field { obstacles, velocities } = field;
+    Some(ChainScenario {
+        segment,
+        carriage: Carriage::parked(),
+        team_goal: Some(team_goal),
+        robots: starts.into_iter().map(PointState::at_rest).collect(),
+        law: NearestAttraction { trench: Hyperbolic { alpha: 1.0, a: 0.5 }, damping: 2.0, leader_damping: 0.0 },
+        zoning: Zoning::new(radii, (0.2, 0.05), Sharpness::One, Edge::Continuous, 6.0).ok()?,
+        obstacles,
+        clearance: CLEARANCE,
+        potential: ObstaclePotential::new(0.2, CUT, 0.1, Sharpness::One, Edge::Continuous, 6.0).ok()?,
+        seeking: SeekSettings {
+            room: 0.05,
+            transit_margin: 0.05,
+            settled_distance: 0.1,
+            settled_speed: 0.05,
+            leader_rule: LeaderRule::StepSix,
+        },
+        encroaching: Encroaching::ObstaclesAndRobots(radii.rho_hat - CUT),
+        remedies: Some(Remedies { watch: WatchSettings { radius: 0.15, patience: 2.0, arrived: 0.1 }, rising: 0.3 }),
+        options: Options {
+            limits: Some(CAPABILITY),
+            sidesteps: true,
+            obstacle_velocities: velocities,
+            safety: Some(Stopping { radius: BODY_RADIUS + 0.01, capability: CAPABILITY }),
+            ..Options::default()
+        },
+        step: 0.01,
+        steps_per_tick: 3,
+    })
+}
+
+/// An end of the segment, or the first point on from there that no obstacle will ever cover.
+fn free_point(segment: &Placed<'_>, field: &Field) -> Vector2<f64> {
+    let length = segment.curve().length();
+    let points = (0..=100).map(|index| segment.at(length * (1.0 - f64::from(index) / 100.0)).point);
+    points.clone().find(|point| field.gap(*point, true, 0.0) >= CUT + 0.2).unwrap_or_else(|| segment.at(length).point)
+}

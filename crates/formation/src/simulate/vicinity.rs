@@ -1,0 +1,109 @@
+//! What is near each robot at a tick: the robots ahead that may push it, and the lines of the safety filter.
+use super::grid::Grid;
+use super::{ChainScenario, Encroaching};
+use crate::Vector2;
+use crate::hull::Obstacle;
+use crate::kinematics::PointState;
+use crate::safety::{Line, Passing, Stopping};
+
+/// Interactions are of finite range: a robot is told of no others than those within it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Vicinity {
+    grid: Grid,
+    robots: Vec<Near>,
+    found: Vec<u32>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Near {
+    ahead: Vec<PointState>,
+    lines: Vec<Line>,
+}
+
+impl Vicinity {
+    /// Looks around at a tick. `seen` and `real` are robots and obstacles then.
+    pub(super) fn look<T>(&mut self, scenario: &ChainScenario<T>, seen: &[PointState], real: &[Obstacle]) {
+        let reach = reach_of_potentials(scenario);
+        let safety = scenario.options.safety.as_ref();
+        if reach.is_none() && safety.is_none() {
+            return;
+        }
+        let period = scenario.step * f64::from(scenario.steps_per_tick);
+        let range = safety.map_or(0.0, |safety| safety.range(period));
+        self.grid.fill(range.max(reach.unwrap_or(0.0)), seen.iter().map(|robot| robot.position));
+        self.robots.resize(seen.len(), Near::default());
+        for (index, (robot, near)) in seen.iter().zip(&mut self.robots).enumerate() {
+            self.grid.near(robot.position, &mut self.found);
+            near.ahead.clear();
+            if let Some(reach) = reach {
+                // The leader of a robot is not among those ahead of it: it has a potential of its own.
+                let ahead = self.found.iter().map(|other| *other as usize).filter(|other| other + 1 < index);
+                let within = |other: &PointState| (other.position - robot.position).norm_squared() < reach * reach;
+                near.ahead.extend(ahead.map(|other| seen[other]).filter(within));
+            }
+            near.lines.clear();
+            if let Some(safety) = safety {
+                let others = self.found.iter().map(|other| *other as usize).filter(|other| *other != index);
+                near.lines.extend(others.map(|other| safety.between(*robot, seen[other])));
+                near.lines.extend(resting(scenario, real, safety, *robot, range));
+            }
+        }
+    }
+
+    /// Robots ahead of the one at `index` besides its leader, by rank: those within reach, or all where reach has no bound.
+    pub(super) fn ahead<'a, T>(
+        &'a self,
+        scenario: &ChainScenario<T>,
+        seen: &'a [PointState],
+        index: usize,
+    ) -> &'a [PointState] {
+        match self.robots.get(index) {
+            Some(near) if reach_of_potentials(scenario).is_some() => &near.ahead,
+            _ => &seen[..index.saturating_sub(1)],
+        }
+    }
+
+    /// What the filter leaves of the acceleration of a robot, `since` seconds after the tick.
+    pub(super) fn admit<T>(
+        &self,
+        scenario: &ChainScenario<T>,
+        real: &[Obstacle],
+        (index, robot): (usize, PointState),
+        wanted: Vector2<f64>,
+        since: f64,
+    ) -> Vector2<f64> {
+        let (Some(safety), Some(near)) = (&scenario.options.safety, self.robots.get(index)) else { return wanted };
+        let passing = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity != Vector2::zeros());
+        let passing =
+            passing.map(|(obstacle, velocity)| Passing { outline: obstacle.shape.outline(), velocity, since });
+        safety.admit(robot, wanted, &near.lines, passing, scenario.step)
+    }
+}
+
+/// How far robots act on each other by their potentials until the next tick, m; nothing if that has no bound, or all matter.
+fn reach_of_potentials<T>(scenario: &ChainScenario<T>) -> Option<f64> {
+    if matches!(scenario.encroaching, Encroaching::ObstaclesAndRobots(_)) {
+        return None;
+    }
+    let later = match (scenario.steps_per_tick, scenario.options.limits) {
+        (1, _) => 0.0,
+        (ticks, Some(limits)) => 2.0 * limits.speed * scenario.step * f64::from(ticks),
+        (_, None) => return None,
+    };
+    Some(scenario.zoning.radii().rho_hat + later)
+}
+
+/// Lines before the obstacles that rest.
+fn resting<'a, T>(
+    scenario: &'a ChainScenario<T>,
+    real: &'a [Obstacle],
+    safety: &'a Stopping,
+    robot: PointState,
+    range: f64,
+) -> impl Iterator<Item = Line> + 'a {
+    let at_rest = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity == Vector2::zeros());
+    let near = at_rest
+        .map(|(obstacle, _)| obstacle.shape.outline())
+        .filter(move |outline| outline.approach(robot.position).gap < range);
+    near.map(move |outline| safety.before(robot, &outline))
+}
