@@ -144,7 +144,8 @@ impl ObstacleMapper {
         }
         let header = Header { stamp: at.ros.into(), frame_id: "map".to_owned() };
         let clearance = self.settings.clearance;
-        sink.publish(APPARENT_OBSTACLES, &ApparentObstacleArray { header, clearance, obstacles: apparent });
+        let members = known.iter().map(Known::to_message).collect();
+        sink.publish(APPARENT_OBSTACLES, &ApparentObstacleArray { header, clearance, obstacles: apparent, members });
     }
 
     fn diagnose(&mut self, hulls: usize) {

@@ -43,8 +43,7 @@ impl Picture<'_> {
         if !self.memory.cells.is_empty() {
             let mut dots = marker("apparent_obstacles/scans", 0, Marker::POINTS, red, stamp);
             dots.scale = Vector3 { x: 0.015, y: 0.015, z: 0.0 };
-            let point = |point: Vector2<f64>| Point { x: point.x, y: point.y, z: 0.0 };
-            dots.points = self.memory.cells.values().map(|cell| point(cell.point)).collect();
+            dots.points = self.memory.cells.values().map(|cell| level(cell.point)).collect();
             markers.push(dots);
         }
         (!markers.is_empty()).then_some(MarkerArray { markers })
@@ -68,56 +67,11 @@ fn marker(namespace: &str, id: u32, kind: i32, color: ColorRGBA, stamp: RosTime)
 
 fn strip(namespace: &str, id: u32, outline: Outline<'_>, width: f64, color: ColorRGBA, stamp: RosTime) -> Marker {
     let mut marker = marker(namespace, id, Marker::LINE_STRIP, color, stamp);
-    marker.points = rounded(outline);
+    marker.points = outline.boundary(ROUND).into_iter().map(level).collect();
     marker.scale.x = width;
     marker
 }
 
-/// The hull grown by its radius: at each corner the arc between the normals of its edges, closed at the end.
-fn rounded(outline: Outline<'_>) -> Vec<Point> {
-    let corners = outline.points;
-    let mut points = Vec::new();
-    for (index, corner) in corners.iter().enumerate() {
-        let before = corners[(index + corners.len() - 1) % corners.len()];
-        let after = corners[(index + 1) % corners.len()];
-        let normal = |dx: f64, dy: f64| libm::atan2(-dx, dy);
-        let (from, mut to) = if corners.len() == 1 {
-            (0.0, std::f64::consts::TAU)
-        } else {
-            (normal(corner.x - before.x, corner.y - before.y), normal(after.x - corner.x, after.y - corner.y))
-        };
-        while to < from {
-            to += std::f64::consts::TAU;
-        }
-        for step in 0..=ROUND {
-            let angle = from + (to - from) * step as f64 / ROUND as f64;
-            let (sin, cos) = libm::sincos(angle);
-            points.push(Point { x: corner.x + outline.radius * cos, y: corner.y + outline.radius * sin, z: 0.0 });
-        }
-    }
-    points.extend(points.first().cloned());
-    points
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_point_lies_on_the_grown_outline() {
-        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vector2::new(x, y));
-        let points = rounded(Outline { points: &square, radius: 0.1 });
-        assert_eq!(points.len(), 4 * (ROUND + 1) + 1);
-        for point in &points {
-            let outside = |value: f64| (value - 1.0).max(-value).max(0.0);
-            let distance = libm::hypot(outside(point.x), outside(point.y));
-            assert!((distance - 0.1).abs() < 1e-12, "{point:?}");
-        }
-    }
-
-    #[test]
-    fn a_disc_is_a_circle() {
-        let points = rounded(Outline { points: &[Vector2::new(2.0, 0.0)], radius: 0.5 });
-        assert!(points.iter().all(|point| (libm::hypot(point.x - 2.0, point.y) - 0.5).abs() < 1e-12));
-    }
+fn level(point: Vector2<f64>) -> Point {
+    Point { x: point.x, y: point.y, z: 0.0 }
 }

@@ -1,4 +1,5 @@
 //! Distances of convex polygons that are rounded off by a radius.
+use core::f64::consts::TAU;
 use nalgebra::Vector2;
 
 /// A convex polygon, corners counter-clockwise, grown by a radius: one point makes a disc, two a capsule. Borrowed, so
@@ -44,6 +45,29 @@ impl Outline<'_> {
         let distance = nearest.norm();
         let towards = if distance > 0.0 { nearest / distance } else { -outward };
         Approach { gap: distance - self.radius, towards }
+    }
+
+    /// Points along the boundary, m, for those who draw it: at each corner an arc of `steps` pieces between the normals of its edges, and
+    /// the first point again at the end.
+    pub fn boundary(&self, steps: usize) -> Vec<Vector2<f64>> {
+        let corners = self.points;
+        let normal = |edge: Vector2<f64>| libm::atan2(-edge.x, edge.y);
+        let mut boundary = Vec::with_capacity(corners.len() * (steps + 1) + 1);
+        for (index, corner) in corners.iter().enumerate() {
+            let before = corners[(index + corners.len() - 1) % corners.len()];
+            let after = corners[(index + 1) % corners.len()];
+            let (from, mut to) =
+                if corners.len() == 1 { (0.0, TAU) } else { (normal(corner - before), normal(after - corner)) };
+            while to < from {
+                to += TAU;
+            }
+            for step in 0..=steps {
+                let (sine, cosine) = libm::sincos(from + (to - from) * step as f64 / steps as f64);
+                boundary.push(corner + self.radius * Vector2::new(cosine, sine));
+            }
+        }
+        boundary.extend(boundary.first().copied());
+        boundary
     }
 
     /// Distance between two outlines, m; not positive if they overlap (then not their depth of penetration).
@@ -124,4 +148,22 @@ fn segment_gap_squared(a: Segment, b: Segment) -> f64 {
         (start + fraction * edge - point).norm_squared()
     };
     from(a.0, b).min(from(a.1, b)).min(from(b.0, a)).min(from(b.1, a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_point_of_the_boundary_lies_on_it() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vector2::new(x, y));
+        for (points, count) in [(&square[..], 69), (&square[..2], 35), (&square[..1], 18)] {
+            let outline = Outline { points, radius: 0.1 };
+            let boundary = outline.boundary(16);
+            assert_eq!((boundary.len(), boundary[0]), (count, boundary[count - 1]));
+            for point in boundary {
+                assert!(outline.approach(point).gap.abs() < 1e-12, "{point}");
+            }
+        }
+    }
 }

@@ -45,6 +45,18 @@ impl Known {
         }
     }
 
+    /// Its own hull.
+    pub(crate) fn to_message(&self) -> msg::Obstacle {
+        let outline = self.shape.outline();
+        let point = |point: &Vector2<f64>| msg::Point2 { x: point.x, y: point.y };
+        msg::Obstacle {
+            id: self.id,
+            polygon: outline.points.iter().map(point).collect(),
+            radius: outline.radius,
+            velocity: point(&self.velocity),
+        }
+    }
+
     /// The same obstacle `seconds` later; where it is, if it would be at no place that numbers can say.
     pub(crate) fn moved(&self, seconds: f64) -> Self {
         let by = self.velocity * seconds;

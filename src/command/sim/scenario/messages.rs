@@ -3,12 +3,12 @@
 use super::super::sink::Sink;
 use trench_core::{Qos, RosTime};
 use trench_formation::Vector2;
-use trench_formation::hull::{ApparentObstacle, Outline};
+use trench_formation::hull::{ApparentObstacle, Obstacle, Outline};
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
 use trench_msgs::msg::{
     ApparentObstacle as ObstacleMessage, ApparentObstacleArray, Assignment, Formation, Goal, Goals, LeaderState,
-    Member, Point2, Queue, RobotState, Segment, TeamState,
+    Member, Obstacle as MemberMessage, Point2, Queue, RobotState, Segment, TeamState,
 };
 use trench_msgs::std_msgs::{ColorRGBA, Header, String as Text};
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
@@ -64,10 +64,12 @@ impl<'a> Publisher<'a> {
             let topic = format!("/{}/leader_state", seat.name);
             sink.publish(time, &topic, Qos::RELIABLE, &self.leader_state(&header, seat, sample));
         }
-        let apparent = simulation.obstacles().map_or(&[][..], |(_, apparent)| apparent);
+        let (real, apparent) = simulation.obstacles().unwrap_or_default();
         if let Task::Nearest(chain, _) = &self.scenario.task {
             let obstacles = apparent.iter().map(obstacle).collect();
-            let array = ApparentObstacleArray { header: header.clone(), clearance: chain.clearance, obstacles };
+            let members = real.iter().map(member).collect();
+            let array =
+                ApparentObstacleArray { header: header.clone(), clearance: chain.clearance, obstacles, members };
             sink.publish(time, "/apparent_obstacles", Qos::RELIABLE, &array);
         }
         sink.publish(time, "/markers", Qos::RELIABLE, &self.markers(&header, samples, apparent));
@@ -172,6 +174,12 @@ fn obstacle(obstacle: &ApparentObstacle) -> ObstacleMessage {
         velocity: Point2::default(),
         members: obstacle.members.clone(),
     }
+}
+
+fn member(obstacle: &Obstacle) -> MemberMessage {
+    let outline = obstacle.shape.outline();
+    let polygon = outline.points.iter().copied().map(point).collect();
+    MemberMessage { id: obstacle.id, polygon, radius: outline.radius, velocity: Point2::default() }
 }
 
 fn point(vector: Vector2<f64>) -> Point2 {
