@@ -62,7 +62,7 @@ fn two_pursuits_are_equal_byte_for_byte() {
 #[test]
 fn every_dynamic_law_forms_the_column() {
     let profile = std::fs::read_to_string(root().join("config/profiles/chain.yaml")).unwrap();
-    for law in ["goal", "goal_damped", "goal_at_rest", "zoned", "nearest", "chain"] {
+    for law in ["goal", "goal_damped", "goal_at_rest", "zoned", "nearest", "chain", "queue"] {
         let folder = tempfile::tempdir().unwrap();
         for name in ["launch", "config/profiles"] {
             let target = folder.path().join(name);

@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const ROBOTS: [&str; 4] = ["robot1", "robot2", "robot3", "robot4"];
 
-// Words of the table for several nodes: the robots' controllers, those of the other robots, and everyone.
+// Words of the table for several nodes: the robots' controllers, and everyone.
 const CONTROLLERS: &str = "CONTROLLERS";
-const OTHERS: &str = "OTHERS";
 const ALL: &str = "ALL";
 
 /// Nodes besides the controllers.
@@ -15,7 +14,7 @@ const NODES: [&str; 6] =
     ["/leader_assignment", "/obstacle_mapper", "/operator", "/overhead_localizer", "/rf_bridge", "/testbed"];
 
 /// Topic (`*` is each robot), type, publishers, subscribers.
-const TOPICS: [(&str, &str, &str, &str); 29] = [
+const TOPICS: [(&str, &str, &str, &str); 30] = [
     ("/overhead/image_raw", "sensor_msgs/msg/Image", "/testbed", "/overhead_localizer"),
     ("/overhead/camera_info", "sensor_msgs/msg/CameraInfo", "/testbed", ""),
     ("/ground_truth/*/odom", "nav_msgs/msg/Odometry", "/testbed", ""),
@@ -29,11 +28,17 @@ const TOPICS: [(&str, &str, &str, &str); 29] = [
     ("/assignment", "trench_msgs/msg/Assignment", "/leader_assignment", "CONTROLLERS"),
     ("/goals", "trench_msgs/msg/Goals", "/leader_assignment", "/operator CONTROLLERS"),
     ("/run_state", "trench_msgs/msg/RunState", "/leader_assignment", "/operator /rf_bridge CONTROLLERS"),
-    ("/*/leader_state", "trench_msgs/msg/LeaderState", "/*/formation_controller", "OTHERS"),
+    ("/*/leader_state", "trench_msgs/msg/LeaderState", "/*/formation_controller", "CONTROLLERS"),
+    ("/*/stability", "trench_msgs/msg/Stability", "/*/formation_controller", ""),
     ("/*/cmd_vel", "geometry_msgs/msg/TwistStamped", "/*/formation_controller", "/rf_bridge"),
     ("/obstacles", "trench_msgs/msg/ObstacleArray", "", "/obstacle_mapper"),
     ("/apparent_obstacles", "trench_msgs/msg/ApparentObstacleArray", "/obstacle_mapper", "CONTROLLERS"),
-    ("/markers", "visualization_msgs/msg/MarkerArray", "/leader_assignment /obstacle_mapper /overhead_localizer", ""),
+    (
+        "/markers",
+        "visualization_msgs/msg/MarkerArray",
+        "/leader_assignment /obstacle_mapper /overhead_localizer CONTROLLERS",
+        "",
+    ),
     ("/*/link", "trench_msgs/msg/LinkStatus", "/rf_bridge", ""),
     ("/*/battery_state", "sensor_msgs/msg/BatteryState", "/rf_bridge", ""),
     ("/*/wheel_odom", "nav_msgs/msg/Odometry", "/rf_bridge", ""),
@@ -111,8 +116,7 @@ fn nodes(words: &str, robot: &str) -> BTreeSet<String> {
     let one = |word: &str| -> BTreeSet<String> {
         match word {
             ALL => all(),
-            CONTROLLERS => controllers(""),
-            OTHERS => controllers(robot),
+            CONTROLLERS => controllers(),
             name => BTreeSet::from([name.replace('*', robot)]),
         }
     };
@@ -120,9 +124,9 @@ fn nodes(words: &str, robot: &str) -> BTreeSet<String> {
 }
 
 fn all() -> BTreeSet<String> {
-    controllers("").into_iter().chain(NODES.map(str::to_owned)).collect()
+    controllers().into_iter().chain(NODES.map(str::to_owned)).collect()
 }
 
-fn controllers(except: &str) -> BTreeSet<String> {
-    ROBOTS.iter().filter(|robot| **robot != except).map(|robot| format!("/{robot}/formation_controller")).collect()
+fn controllers() -> BTreeSet<String> {
+    ROBOTS.iter().map(|robot| format!("/{robot}/formation_controller")).collect()
 }

@@ -7,7 +7,7 @@ use crate::verdict::number;
 use crate::zones::zones;
 use trench_config::{ConfigError, Parameters};
 use trench_formation::laws::{Family, Robust};
-use trench_formation::trench::{Conic, Hyperbolic, Quadratic, Saturated, SquareRoot};
+use trench_plan::{TRENCH_RANGE, trench_from_parameters};
 
 /// A formation_controller by its full name, with its parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,8 +18,6 @@ pub struct Controller {
     pub parameters: Parameters,
 }
 
-/// Trenches are looked at up to this distance, m.
-const TRENCH_RANGE: f64 = 100.0;
 /// Chains with less damping than this (1/s) and none towards their leaders whip (ERRATA on 6.5 and 7.10).
 const LEAST_CHAIN_DAMPING: f64 = 2.0;
 
@@ -48,17 +46,20 @@ fn kinematic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdi
 }
 
 fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict>, ConfigError> {
-    let (alpha, a) = (parameters.f64("trench.alpha")?, parameters.f64("trench.a")?);
-    let judged =
-        |what: &str, verdict: Verdict| vec![Verdict { finding: format!("{what}: {}", verdict.finding), ..verdict }];
-    let mut verdicts = match parameters.str("trench.shape")? {
-        "hyperbolic" => judged("hyperbolic", potential(name, &Hyperbolic { alpha, a }, TRENCH_RANGE)),
-        "quadratic" => judged("quadratic", potential(name, &Quadratic { alpha: alpha / a }, TRENCH_RANGE)),
-        "saturated" => judged("saturated", potential(name, &Saturated { stiffness: alpha / a, edge: a }, TRENCH_RANGE)),
-        "conic" => judged("conic", potential(name, &Conic { alpha }, TRENCH_RANGE)),
-        "square_root" => judged("square_root", potential(name, &SquareRoot, TRENCH_RANGE)),
-        _ => Vec::new(),
-    };
+    if law == "queue" {
+        let (k1, k2) = (parameters.f64("queue.position_gain")?, parameters.f64("queue.velocity_gain")?);
+        let finding = format!("K = ({}, {}): F = A - B K is Hurwitz", number(k1), number(k2));
+        return Ok(vec![Verdict::new(
+            "gains",
+            name,
+            k1 > 0.0 && k2 > 0.0,
+            finding,
+            "(8.18), Theorem 8.2.1 as corrected",
+        )]);
+    }
+    let shape = parameters.str("trench.shape")?;
+    let verdict = potential(name, &trench_from_parameters(parameters)?, TRENCH_RANGE);
+    let mut verdicts = vec![Verdict { finding: format!("{shape}: {}", verdict.finding), ..verdict }];
     let damping = parameters.f64("damping")?;
     if matches!(law, "zoned" | "chain") {
         verdicts.push(zones(name, parameters.f64_array("zones.radii")?, parameters.f64("body.radius")?));

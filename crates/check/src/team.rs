@@ -45,12 +45,15 @@ pub fn team(parameters: &Parameters, robots: Option<usize>) -> Result<Team, Conf
         approach_gain: parameters.f64("gains.k1")?,
         feeds_forward: kinematic_feed || is_dynamic,
         zones,
-        chain_gains: if is_chained { chain_gains(parameters)? } else { None },
+        chain_gains: if is_chained || law == "queue" { chain_gains(parameters)? } else { None },
     })
 }
 
 /// Phi''(0) and k; none for trenches without a curvature at their bottom.
 fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigError> {
+    if parameters.str("law")? == "queue" {
+        return Ok(Some((parameters.f64("queue.position_gain")?, parameters.f64("queue.velocity_gain")?)));
+    }
     let (alpha, a) = (parameters.f64("trench.alpha")?, parameters.f64("trench.a")?);
     let stiffness = match parameters.str("trench.shape")? {
         "hyperbolic" | "quadratic" | "saturated" => alpha / a,

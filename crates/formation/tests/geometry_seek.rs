@@ -119,7 +119,7 @@ fn fragments_trap_unless_the_leader_counts() {
 #[test]
 fn robots_ahead_are_obstacles() {
     let disc = Obstacle { id: 4, shape: Shape::new(&[at(3.0, 0.0)], 0.5).unwrap() };
-    let found = apparent_obstacles(&[disc], &[at(4.5, 0.0), at(15.0, 0.0)], 0.25, 1.0).unwrap();
+    let found = apparent_obstacles(&[disc], &[at(4.5, 0.0), at(15.0, 0.0)], 0.25, 1.0, |_, _| false).unwrap();
     assert_eq!(found.iter().map(|obstacle| obstacle.members.clone()).collect::<Vec<_>>(), [vec![4, 5], vec![6]]);
     let curve = Curve::new(&CurveShape::Line(at(0.0, 0.0), at(20.0, 0.0)), false, false).unwrap();
     let segment = Placed::new(&curve, Isometry2::identity());

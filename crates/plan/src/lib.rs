@@ -10,6 +10,7 @@ mod plan;
 mod sample;
 mod scale;
 mod segment;
+mod trench;
 
 pub use expression::{expression, expression_remedy};
 pub use file::{parse, segment};
@@ -17,6 +18,7 @@ pub use message::{FormationError, plan_from_message};
 pub use plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
 pub use sample::sampled;
 pub use segment::{SegmentError, curve_from_message, message_from_shape, shape_from_message};
+pub use trench::{TRENCH_RANGE, TRENCH_SHAPES, trench_from_parameters};
 
 /// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
 const ON_SEGMENT: f64 = 1e-3;

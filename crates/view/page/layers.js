@@ -21,7 +21,10 @@ const SAMPLES = {
 };
 
 const panel = d3.select("#layers");
-const hidden = new Set(JSON.parse(localStorage.getItem("trench.hidden") ?? '["velocities"]'));
+// Of what controllers draw, the picture has zones of its own; forces and fragments are for those who look closely.
+const QUIET = ["velocities", ...["zones", "forces", "fragments"].map((part) => `marker:controller/${part}`)];
+const stored = localStorage.getItem("trench.hidden");
+const hidden = new Set(stored ? JSON.parse(stored) : QUIET);
 
 export const isShown = (name) => !hidden.has(name);
 

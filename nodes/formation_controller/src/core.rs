@@ -1,47 +1,33 @@
 //! The node core: events in, ticks, messages out.
 
-use crate::inputs::{Heard, Hull, point};
+use crate::inputs::Hulls;
+use crate::monitor::Violation;
+use crate::ports::{
+    APPARENT_OBSTACLES, ASSIGNMENT, CMD_VEL, DIAGNOSTICS, EMERGENCY_STOP, FORMATION, GOALS, LEADER_STATE, LINK,
+    MARKERS, OTHERS, OWN, RUN_STATE, STABILITY, TEAM_STATE, interface,
+};
 use crate::refusal::Refusal;
+use crate::robot::unseen;
 use crate::segments::Segments;
 use crate::settings::{Settings, check_gains, descriptors};
-use crate::tick::{Command, Tick, unseen};
+use crate::tick::{Command, Tick};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Level, Local, Master, NodeContext, NodeCore,
-    NodeDescription, NotMaster, Qos, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
+    Condition, Event, Files, Health, Interface, Level, Master, NodeContext, NodeCore, NodeDescription, NotMaster, Sink,
+    Source, StartError, Steady, Times, resolve_name,
 };
-use trench_formation::Vector2;
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
-use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{
     ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, RunState, TeamState,
 };
 use trench_msgs::std_msgs::{Bool, Header};
 
-const TEAM_STATE: usize = 0;
-const GOALS: usize = 1;
-const ASSIGNMENT: usize = 2;
-const FORMATION: usize = 3;
-const RUN_STATE: usize = 4;
-const APPARENT_OBSTACLES: usize = 5;
-const EMERGENCY_STOP: usize = 6;
-const LINK: usize = 7;
-/// Leader states of the others follow from here on.
-const OTHERS: usize = 8;
-
-const CMD_VEL: usize = 0;
-const LEADER_STATE: usize = 1;
-const DIAGNOSTICS: usize = 2;
-
-/// Room for one small message in shared memory.
-const SMALL: Local = Local::SharedMemory { max_len: 1024 };
-
-/// Room for a leader state that names some hundred robots.
-const STATE: Local = Local::SharedMemory { max_len: 8192 };
+/// Between two words of the monitor where nothing changes, s: a little less than a tenth.
+const STABILITY_PERIOD: f64 = 0.095;
 
 /// Why a message was dropped.
 #[derive(Debug, thiserror::Error)]
@@ -63,6 +49,10 @@ pub struct FormationController {
     masters: BTreeMap<usize, Master>,
     health: Health,
     wakeup: Option<Steady>,
+    /// When the monitor's word was published, and whether it was that all holds.
+    told: Option<(Steady, bool)>,
+    /// When it was drawn last.
+    drawn: Option<Steady>,
     bad_messages: u64,
     /// Gains outside the stable zone that the operator allowed, to be told once the log is open.
     warning: Option<String>,
@@ -81,85 +71,75 @@ pub fn description() -> NodeDescription {
 
 fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let settings = Settings::read(parameters, &context.namespace)?;
-    let warning = admit_gains(parameters)?;
+    let warning = admit_gains(parameters, &settings)?;
+    let mut tick = Tick::new(settings.clone());
+    tick.unstable_gains = warning.clone();
     let others: Vec<String> = settings.team.iter().filter(|name| **name != settings.robot).cloned().collect();
     Ok(Box::new(FormationController {
         interface: interface(&settings, &others),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
-        tick: Tick::new(settings),
+        tick,
         others,
         masters: BTreeMap::new(),
         wakeup: None,
+        told: None,
+        drawn: None,
         bad_messages: 0,
         warning,
     }))
 }
 
 /// Refuses gains outside the stable zone, or gives the warning where the operator allows them.
-fn admit_gains(parameters: &Parameters) -> Result<Option<String>, ConfigError> {
-    match check_gains(parameters) {
+fn admit_gains(parameters: &Parameters, settings: &Settings) -> Result<Option<String>, ConfigError> {
+    match check_gains(parameters, settings) {
         Err(refusal) if parameters.bool("refuse_unstable_gains")? => Err(refusal),
         Err(refusal) => Ok(Some(refusal.to_string())),
         Ok(()) => Ok(None),
     }
 }
 
-fn interface(settings: &Settings, others: &[String]) -> Interface {
-    // Goals, obstacles and what the others say are used at the next tick, and wake nobody.
-    let mut subscriptions = vec![
-        Subscribe::to::<TeamState>("/team_state", Qos::RELIABLE),
-        Subscribe::to::<Goals>("/goals", Qos::RELIABLE).without_waking(),
-        Subscribe::to::<Assignment>("/assignment", Qos::LATCHED),
-        Subscribe::to::<Formation>("/formation", Qos::LATCHED),
-        Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
-        Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE).without_waking(),
-        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
-        Subscribe::to::<LinkStatus>(format!("/{}/link", settings.robot), Qos::RELIABLE).without_waking(),
-    ];
-    let leader_state =
-        |name: &String| Subscribe::to::<LeaderState>(format!("/{name}/leader_state"), Qos::RELIABLE).without_waking();
-    subscriptions.extend(others.iter().map(leader_state));
-    let robot = &settings.robot;
-    let command = format!("/{robot}/cmd_vel");
-    let command = if settings.stamped {
-        Advertise::of::<TwistStamped>(command, Qos::RELIABLE, SMALL)
-    } else {
-        Advertise::of::<Twist>(command, Qos::RELIABLE, SMALL)
-    };
-    Interface {
-        subscriptions,
-        publications: vec![
-            command,
-            Advertise::of::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE, STATE),
-            Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
-        ],
-        ..Interface::default()
-    }
-}
-
 impl FormationController {
-    fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) -> Result<(), Dropped> {
+    /// Takes a message; whether a command is due now: the team state is the tick (invariant 10), and an emergency stop does not wait
+    /// for it.
+    fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) -> Result<bool, Dropped> {
+        if let Some(name) = port.checked_sub(OTHERS).and_then(|index| self.others.get(index)) {
+            self.tick.inputs.voices.hear(name, source.gid, at.steady);
+        }
         if matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES) || port >= OTHERS {
             self.masters.entry(port).or_default().admit(source, at.steady)?;
         }
         let inputs = &mut self.tick.inputs;
+        let mut urgent = port == TEAM_STATE;
         match port {
             TEAM_STATE => inputs.take_team(at, TeamState::decode(cdr)?)?,
             GOALS => inputs.take_goals(at, Goals::decode(cdr)?)?,
-            ASSIGNMENT => inputs.assignment = Some(Assignment::decode(cdr)?),
-            FORMATION => inputs.segments = Some(Arc::new(Segments::of(&Formation::decode(cdr)?))),
+            ASSIGNMENT => {
+                let before = inputs.queue(&self.tick.settings.robot);
+                inputs.assignment = Some(Assignment::decode(cdr)?);
+                if inputs.queue(&self.tick.settings.robot) != before {
+                    self.tick.renew();
+                }
+            }
+            FORMATION => {
+                inputs.segments = Some(Arc::new(Segments::of(&Formation::decode(cdr)?)));
+                self.tick.renew();
+            }
             RUN_STATE => inputs.run = Some(RunState::decode(cdr)?),
             APPARENT_OBSTACLES => {
-                let message = Hull::all(&ApparentObstacleArray::decode(cdr)?);
-                inputs.obstacles = Some(Heard { at: at.steady, message });
+                inputs.take_hulls(at, Hulls::of(&ApparentObstacleArray::decode(cdr)?)?)?;
             }
-            EMERGENCY_STOP => inputs.emergency_stop = Bool::decode(cdr)?.data,
+            EMERGENCY_STOP => {
+                let stop = Bool::decode(cdr)?.data;
+                urgent = stop && !inputs.emergency_stop;
+                inputs.emergency_stop = stop;
+            }
             LINK => {
                 let link = LinkStatus::decode(cdr)?;
                 if self.tick.settings.team_link_by_radio && link.up {
                     self.tick.team_link.report(at.steady, link.hears);
                 }
             }
+            OWN => inputs.voices.hear(&self.tick.settings.robot, source.gid, at.steady),
             _ => {
                 let state = LeaderState::decode(cdr)?;
                 let carried = |name: &&String| self.tick.team_link.carries(at.steady, name);
@@ -168,7 +148,7 @@ impl FormationController {
                 }
             }
         }
-        Ok(())
+        Ok(urgent)
     }
 
     /// Tells once of gains that the operator allowed against the theory, at the start or after a change.
@@ -180,6 +160,9 @@ impl FormationController {
     }
 
     fn drive(&mut self, at: Times, sink: &mut dyn Sink) {
+        let period = self.tick.settings.picture_period;
+        let due = self.drawn.is_none_or(|last| at.steady.seconds_since(last) >= period);
+        self.tick.draws = period > 0.0 && due;
         let command = self.tick.run(at);
         self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog));
         self.send(at, &command, sink);
@@ -190,6 +173,41 @@ impl FormationController {
         };
         self.health.set("motion", condition, text);
         self.health.value("motion", "limits", command.limits);
+        self.tell_doubled(at);
+        self.tell_stability(at, &command, sink);
+        if let Some(picture) = self.tick.picture.take() {
+            self.drawn = Some(at.steady);
+            sink.publish(MARKERS, &picture);
+        }
+    }
+
+    fn tell_doubled(&mut self, at: Times) {
+        let doubled: Vec<&str> = self.tick.inputs.voices.doubled(at.steady).collect();
+        match doubled[..] {
+            [] => self.health.set("controllers", Condition::Ok, "one a robot"),
+            _ => {
+                let message = format!("two controllers drive {}", doubled.join(", "));
+                self.health.set("controllers", Condition::Error, message);
+            }
+        }
+    }
+
+    /// Publishes what the monitor says: at once where it changes, and ten times a second.
+    fn tell_stability(&mut self, at: Times, command: &Command, sink: &mut dyn Sink) {
+        let Some((message, violation)) = self.tick.stability(command) else {
+            self.health.set("stability", Condition::Ok, "no law is in force");
+            return;
+        };
+        let condition = violation.as_ref().map_or(Condition::Ok, Violation::condition);
+        let text = if message.holds { format!("{} holds", message.equation) } else { message.violation.clone() };
+        self.health.set("stability", condition, text);
+        let due = self
+            .told
+            .is_none_or(|(last, held)| held != message.holds || at.steady.seconds_since(last) >= STABILITY_PERIOD);
+        if due {
+            self.told = Some((at.steady, message.holds));
+            sink.publish(STABILITY, &message);
+        }
     }
 
     /// Says how the team link is, under laws that need it.
@@ -220,49 +238,9 @@ impl FormationController {
             sink.publish(CMD_VEL, &twist);
         }
         if command.pose.is_some() {
-            let message = self.leader_state(at, command);
+            let message = self.tick.leader_state(at, command);
             sink.publish(LEADER_STATE, &message);
         }
-    }
-
-    fn leader_state(&self, at: Times, command: &Command) -> LeaderState {
-        let (settings, inputs) = (&self.tick.settings, &self.tick.inputs);
-        let state = inputs.robot(&settings.robot);
-        let position = state.map_or(Vector2::zeros(), |state| Vector2::new(state.x, state.y));
-        let velocity = state.map_or(Vector2::zeros(), |state| {
-            let (sin, cos) = libm::sincos(state.theta);
-            state.v * Vector2::new(cos, sin)
-        });
-        let (steered, steered_velocity) = self.tick.steered_point(command).unwrap_or((position, velocity));
-        let wanted = command.wanted;
-        let mut message = LeaderState {
-            header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
-            robot: settings.robot.clone(),
-            hears: inputs.hears(at.steady, settings.leader_state_age_limit).map(str::to_owned).collect(),
-            position: point(position),
-            theta: state.map_or(0.0, |state| state.theta),
-            velocity: point(velocity),
-            acceleration: wanted.map(|wanted| point(wanted.acceleration)).unwrap_or_default(),
-            point: point(steered),
-            point_velocity: point(steered_velocity),
-            goal: wanted.and_then(|wanted| wanted.drawn).map(point).unwrap_or_default(),
-            goal_distance: wanted.map_or(0.0, |wanted| wanted.distance),
-            lyapunov: wanted.map_or(0.0, |wanted| wanted.lyapunov.value),
-            lyapunov_rate: wanted.map_or(0.0, |wanted| wanted.lyapunov.rate),
-            limited_by: command.limits,
-            ..LeaderState::default()
-        };
-        if let Some(assignment) = &inputs.assignment {
-            (message.epoch, message.formation_hash) = (assignment.epoch, assignment.formation_hash);
-            if let Some(member) = assignment.members.iter().find(|member| member.robot == settings.robot) {
-                (message.queue, message.rank) = (member.queue, member.rank);
-            }
-        }
-        if let Some((distance, tolerance)) = self.tick.segment_distance(command) {
-            message.segment_distance = distance;
-            message.conforms = distance <= tolerance;
-        }
-        message
     }
 
     fn dropped(&mut self, error: &Dropped, port: usize, sink: &mut dyn Sink) {
@@ -286,9 +264,8 @@ impl NodeCore for FormationController {
         match event {
             Event::Started => self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog)),
             Event::Message { port, source, cdr } => match self.take(at, port, source, cdr) {
-                // The team state is the tick (invariant 10); an emergency stop does not wait for it.
-                Ok(()) if port == TEAM_STATE || port == EMERGENCY_STOP => self.drive(at, sink),
-                Ok(()) => {}
+                Ok(true) => self.drive(at, sink),
+                Ok(false) => {}
                 Err(error) => self.dropped(&error, port, sink),
             },
             Event::Wakeup => self.drive(at, sink),
@@ -304,11 +281,12 @@ impl NodeCore for FormationController {
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
         let settings = Settings::read(parameters, &format!("/{}", self.tick.settings.robot))?;
-        self.warning = admit_gains(parameters)?;
+        self.warning = admit_gains(parameters, &settings)?;
+        self.tick.unstable_gains = self.warning.clone();
         if self.warning.is_none() {
             self.health.set("gains", Condition::Ok, "in the stable zone");
         }
-        self.tick.settings = settings;
+        self.tick.set(settings);
         Ok(())
     }
 }

@@ -19,6 +19,8 @@ pub(crate) enum Hold {
     NoLeader(String),
     NoMapper,
     NotFinite,
+    /// Somebody else drives the robot, too.
+    TwoControllers,
 }
 
 impl Hold {
@@ -26,7 +28,9 @@ impl Hold {
         match self {
             Self::NotRunning => Condition::Ok,
             Self::NoTeamState | Self::OldPose(_) | Self::NoGoal | Self::NoPlace | Self::NoLeader(_) => Condition::Stale,
-            Self::EmergencyStop | Self::NotSeen(_) | Self::NoMapper | Self::NotFinite => Condition::Error,
+            Self::EmergencyStop | Self::NotSeen(_) | Self::NoMapper | Self::NotFinite | Self::TwoControllers => {
+                Condition::Error
+            }
         }
     }
 }
@@ -44,6 +48,7 @@ impl fmt::Display for Hold {
             Self::NoPlace => write!(formatter, "resting: the assignment or formation of the goals is not heard"),
             Self::NoLeader(name) => write!(formatter, "resting: {name}, ahead in the chain, is silent"),
             Self::NoMapper => write!(formatter, "resting: no obstacle mapper is heard"),
+            Self::TwoControllers => write!(formatter, "resting: two controllers drive this robot; end one of them"),
             Self::NotFinite => write!(formatter, "resting: the law gave a number that is not finite"),
         }
     }

@@ -21,6 +21,17 @@ pub enum Law {
 }
 
 impl Law {
+    /// Its number in the thesis.
+    #[must_use]
+    pub fn equation(&self) -> &'static str {
+        match self {
+            Self::Direct(_) => "(3.9)",
+            Self::Nominal(_) => "(3.10)",
+            Self::Robust(_) | Self::Tracking(_) => "(3.13)",
+            Self::Family(_) => "(4.4)",
+        }
+    }
+
     /// The command for a robot at `pose` with its goal at `goal`, both at the moment the command acts. `holding` is what
     /// the last call returned.
     #[must_use]

@@ -8,25 +8,33 @@
 //! | prediction | [`Predictor`] | commands sent since the exposure |
 //! | law | [`Law`] | (3.9), (3.10), (3.13), (4.4), (3.13) with feed-forward |
 //! | dynamic laws | `dynamic`, `steer` | (5.1)-(5.3), (6.1), (7.4), (7.13), driven through 3.1.1 |
+//! | monitor | `monitor`, `trench_formation::stability::Balance` | A.10, A.12, A.18, chapter 8 |
 //! | team link | `team_link`, `recovery` | Remarks 6.2.1, 8.4.1 |
 //! | motors | `trench_formation::kinematics::{saturate, Ramp}` | 4.5.2, 4.6.3 |
 //! | safety | `trench_formation::safety` | invariant 8 of docs/ARCHITECTURE.md |
 
+mod chain;
 mod core;
 mod deviation;
 mod dynamic;
 mod hold;
 mod inputs;
 mod law;
+mod markers;
+mod monitor;
+mod ports;
 mod predictor;
 mod recovery;
 mod refusal;
+mod report;
+mod robot;
 mod safe;
 mod segments;
 mod settings;
 mod steer;
 mod team_link;
 mod tick;
+mod track;
 
 pub use crate::core::{FormationController, description};
 pub use deviation::Deviation;

@@ -1,14 +1,14 @@
 //! A robot that has lost its team (Remark 6.2.1): with its collision avoidance activated it approaches the segment and moves
 //! along it, as fast as it may, towards the team goal, until it hears another robot of its queue.
 
-use crate::dynamic::Frame;
 use crate::segments::Way;
 use crate::tick::Tick;
+use nalgebra::Isometry2;
 use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
 use trench_formation::curve::Placed;
 use trench_formation::kinematics::Pose;
-use trench_formation::laws::GoalMotion;
+use trench_formation::laws::{GoalMotion, RigidMotion};
 
 /// The point that leads the robot along the segment is this far ahead, m: far enough to be followed at full speed.
 const LEAD: f64 = 0.3;
@@ -28,14 +28,19 @@ impl Tick {
         if !self.team_link.lost(at.steady, hears, self.settings.team_age_limit) {
             return None;
         }
-        let frame = inputs.frame(acts)?;
-        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, &frame, robot.position(), speed))
+        let frame = inputs.goals.frame(acts)?;
+        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, frame, robot.position(), speed))
     }
 }
 
 /// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s).
-fn point_ahead(way: &Way<'_>, frame: &Frame, robot: Vector2<f64>, speed: f64) -> GoalMotion {
-    let (segment, motion) = (Placed::new(way.curve, frame.map_from_segment()), frame.motion());
+fn point_ahead(
+    way: &Way<'_>,
+    (map_from_segment, motion): (Isometry2<f64>, RigidMotion),
+    robot: Vector2<f64>,
+    speed: f64,
+) -> GoalMotion {
+    let segment = Placed::new(way.curve, map_from_segment);
     let here = segment.nearest(robot);
     if here.distance > CLOSE * way.tolerance {
         return motion.at(here.point);
@@ -59,17 +64,14 @@ mod tests {
         let line = CurveShape::Line(Vector2::new(-2.0, 0.0), Vector2::new(0.0, 0.0));
         let curve = Curve::new(&line, false, false).unwrap();
         let way = Way { curve: &curve, team_goal: Vector2::zeros(), tolerance: 0.05 };
-        let frame = Frame {
-            origin: GoalMotion {
-                position: Vector2::new(3.0, 1.0),
-                velocity: Vector2::new(0.06, 0.0),
-                acceleration: Vector2::zeros(),
-            },
-            theta: 0.0,
-            turn_rate: 0.0,
+        let origin = GoalMotion {
+            position: Vector2::new(3.0, 1.0),
+            velocity: Vector2::new(0.06, 0.0),
+            acceleration: Vector2::zeros(),
         };
+        let frame = (Isometry2::translation(3.0, 1.0), RigidMotion { origin, ..RigidMotion::at_rest() });
         let check = |robot: [f64; 2], point: [f64; 2], speed: f64| {
-            let goal = point_ahead(&way, &frame, robot.into(), 0.2);
+            let goal = point_ahead(&way, frame, robot.into(), 0.2);
             let expected = Vector2::from(point);
             assert!((goal.position - expected).norm() < 1e-9, "{robot:?}: {goal:?}");
             assert!((goal.velocity - Vector2::new(speed, 0.0)).norm() < 1e-9, "{robot:?}: {goal:?}");

@@ -2,11 +2,10 @@
 
 use crate::hold::Hold;
 use crate::tick::{Command, Tick, pose_of};
-use trench_core::Times;
+use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
-use trench_formation::hull::Outline;
 use trench_formation::kinematics::Twist;
-use trench_formation::safety::{MovingOutline, Neighbour, Scene, Wish};
+use trench_formation::safety::{Neighbour, Scene, Wish};
 use trench_msgs::msg::{LeaderState, RobotState};
 
 /// Seconds without a way round after which the side of the last one is forgotten.
@@ -16,7 +15,7 @@ impl Tick {
     /// The twist after the filter; `goal` is what a way round leads to.
     pub(crate) fn safe(
         &mut self,
-        at: Times,
+        (at, acts): (Times, RosTime),
         state: &RobotState,
         twist: Twist,
         goal: Option<Vector2<f64>>,
@@ -33,18 +32,14 @@ impl Tick {
             return Err(Hold::NoMapper);
         }
         let neighbours = self.neighbours(at);
-        let hulls = self.inputs.obstacles.iter().flat_map(|heard| &heard.message);
-        let obstacles: Vec<MovingOutline<'_>> = hulls
-            .map(|hull| MovingOutline {
-                outline: Outline { points: &hull.points, radius: hull.radius },
-                velocity: hull.velocity,
-            })
-            .collect();
+        let hulls = self.inputs.obstacles.as_ref().map(|heard| heard.message.at(acts));
+        let pose = pose_of(state);
+        let obstacles = hulls.as_ref().map_or_else(Vec::new, |hulls| hulls.bodies(pose.position()));
         let scene = Scene { neighbours: &neighbours, obstacles: &obstacles, field: &self.settings.field };
         let now = Twist { v: state.v, omega: state.omega };
         // A law that goes by potentials is led round, not across: it keeps to the side that it took.
         let kept = self.detour.filter(|_| self.settings.dynamic.is_some()).map(|(side, _)| side);
-        let filtered = self.settings.safety.apply(pose_of(state), now, Wish { twist, goal, kept }, &scene);
+        let filtered = self.settings.safety.apply(pose, now, Wish { twist, goal, kept }, &scene);
         match filtered.side {
             Some(side) => self.detour = Some((side, at.steady)),
             None if self.detour.is_some_and(|(_, last)| at.steady.seconds_since(last) > FORGET) => self.detour = None,
@@ -61,10 +56,8 @@ impl Tick {
         let Some(team) = &self.inputs.team else { return Vec::new() };
         let others = team.message.robots.iter().filter(|other| other.name != self.settings.robot);
         let neighbour = |other: &RobotState| {
-            let said = self.inputs.others.get(&other.name);
-            let said = said
-                .filter(|said| at.steady.seconds_since(said.at) <= self.settings.leader_state_age_limit)
-                .map(|said| &said.message);
+            let said = self.inputs.others.said(&other.name, at.steady, self.settings.leader_state_age_limit);
+            let one_mind = !self.inputs.voices.are_several(&other.name, at.steady);
             let tracked = other.status == RobotState::STATUS_TRACKED;
             let obeys = said.is_some_and(|said| said.limited_by & LeaderState::LIMIT_DEVIATES == 0);
             let arrived = said.is_some_and(|said| said.goal_distance < 2.0 * self.settings.dead_band.resume);
@@ -73,7 +66,7 @@ impl Tick {
                 position: Vector2::new(other.x, other.y),
                 velocity: other.v * Vector2::new(cos, sin),
                 radius: self.settings.body_radius,
-                cooperative: tracked && obeys,
+                cooperative: tracked && obeys && one_mind,
                 settled: arrived && other.v.abs() < 0.01,
             }
         };

@@ -1,7 +1,7 @@
 //! The segments of the formation in force.
 
-use crate::dynamic::Frame;
 use crate::inputs::vector;
+use nalgebra::Isometry2;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, Placed};
 use trench_msgs::msg::{Formation, Queue};
@@ -55,9 +55,14 @@ impl Segments {
     }
 
     /// Distance of `position` (map) from the segment of `queue`, and the queue's tolerance, m.
-    pub(crate) fn distance(&self, position: Vector2<f64>, queue: u32, frame: &Frame) -> Option<(f64, f64)> {
+    pub(crate) fn distance(
+        &self,
+        position: Vector2<f64>,
+        queue: u32,
+        map_from_segment: Isometry2<f64>,
+    ) -> Option<(f64, f64)> {
         let tolerance = self.queues.get(queue as usize)?.tolerance;
-        let segment = Placed::new(self.curve(queue)?, frame.map_from_segment());
+        let segment = Placed::new(self.curve(queue)?, map_from_segment);
         Some((segment.nearest(position).distance, tolerance))
     }
 }

@@ -2,6 +2,8 @@
 
 use crate::Law;
 use crate::dynamic::{self, DynamicSettings, check_damping};
+use crate::monitor::{self, MonitorSettings};
+use std::sync::Arc;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_formation::Vector2;
 use trench_formation::kinematics::{Axle, Ramp};
@@ -14,9 +16,11 @@ use trench_formation::stability::StableZone;
 pub(crate) struct Settings {
     pub(crate) robot: String,
     pub(crate) team: Vec<String>,
+    /// The parameter `law`.
+    pub(crate) law_name: String,
     pub(crate) law: Law,
     /// The dynamic law, if `law` names one.
-    pub(crate) dynamic: Option<DynamicSettings>,
+    pub(crate) dynamic: Option<Arc<DynamicSettings>>,
     pub(crate) dead_band: DeadBand,
     pub(crate) axle: Axle,
     pub(crate) max_wheel_speed: f64,
@@ -40,11 +44,14 @@ pub(crate) struct Settings {
     pub(crate) body_radius: f64,
     pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
+    pub(crate) monitor: MonitorSettings,
+    /// s, between two pictures; 0: none.
+    pub(crate) picture_period: f64,
 }
 
 /// The names `law` may have.
 const LAWS: &str = "one of: robust (3.13), nominal (3.10), direct (3.9), family (4.4), goal (5.1), goal_damped (5.2), \
-                    goal_at_rest (5.3), zoned (6.1), nearest (7.4), chain (7.13)";
+                    goal_at_rest (5.3), zoned (6.1), nearest (7.4), chain (7.13), queue (8.11)";
 
 pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
     use ParameterDescriptor as P;
@@ -100,9 +107,12 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             &[0.0, 0.0, 2.48, 1.83],
             "m, the field: x and y of its low corner, then of its high one",
         ),
+        P::double("markers.period", 0.4, "s, between two pictures on /markers under dynamic laws; 0: none")
+            .range(0.0, 60.0),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
     ];
     all.extend(dynamic::descriptors());
+    all.extend(monitor::descriptors());
     all
 }
 
@@ -125,8 +135,9 @@ impl Settings {
         Ok(Self {
             robot,
             team: parameters.str_list("team")?.to_vec(),
+            law_name: parameters.str("law")?.to_owned(),
             law: law(parameters, dead_band)?,
-            dynamic: DynamicSettings::read(parameters)?,
+            dynamic: DynamicSettings::read(parameters)?.map(Arc::new),
             dead_band,
             axle: Axle { half_track: double("body.half_axle")? },
             max_wheel_speed: double("wheels.max_speed")?,
@@ -147,6 +158,8 @@ impl Settings {
             body_radius: double("body.radius")?,
             field: field(parameters)?,
             stamped: parameters.bool("stamped")?,
+            monitor: MonitorSettings::read(parameters)?,
+            picture_period: double("markers.period")?,
         })
     }
 }
@@ -170,7 +183,9 @@ fn law(parameters: &Parameters, dead_band: DeadBand) -> Result<Law, ConfigError>
         }
         "robust" => Law::Robust(Robust { k1, k2, k3 }),
         // Not in force while a dynamic law is.
-        "goal" | "goal_damped" | "goal_at_rest" | "zoned" | "nearest" | "chain" => Law::Nominal(Nominal { k1, k2 }),
+        "goal" | "goal_damped" | "goal_at_rest" | "zoned" | "nearest" | "chain" | "queue" => {
+            Law::Nominal(Nominal { k1, k2 })
+        }
         _ => return Err(parameters.error("law", "is no law", LAWS)),
     };
     Ok(law)
@@ -213,9 +228,9 @@ fn field(parameters: &Parameters) -> Result<Vec<Vector2<f64>>, ConfigError> {
 ///
 /// # Errors
 /// When they do not, with the bound, its equation, and the nearest admissible gain.
-pub(crate) fn check_gains(parameters: &Parameters) -> Result<(), ConfigError> {
-    if let Some(dynamic) = DynamicSettings::read(parameters)? {
-        return check_damping(parameters, &dynamic.law);
+pub(crate) fn check_gains(parameters: &Parameters, settings: &Settings) -> Result<(), ConfigError> {
+    if let Some(dynamic) = &settings.dynamic {
+        return check_damping(parameters, dynamic);
     }
     let (k1, k2) = (parameters.f64("gains.k1")?, parameters.f64("gains.k2")?);
     let k3 = if parameters.str("law")? == "robust" { parameters.f64("gains.k3")? } else { k1 };

@@ -1,16 +1,20 @@
 //! A dynamic law's part of a tick: what is around the robot, the law up to the next tick, a twist.
 
-use crate::dynamic::{Ahead, Around, DynamicSettings, Encroaching, Frame, MovingHull};
+use crate::chain::Chain;
+use crate::dynamic::{DynamicLaw, DynamicSettings, Reference};
 use crate::hold::Hold;
+use crate::markers::Picture;
+use crate::monitor::Driving;
 use crate::tick::{Command, Tick, Wanted};
 use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
-use trench_formation::curve::{Curve, Placed};
-use trench_formation::hull::{Obstacle, Outline, Shape};
+use trench_formation::agent::Surroundings;
 use trench_formation::kinematics::{PointState, Pose, Twist, twist_of_hand};
 use trench_formation::laws::{GoalMotion, Lyapunov};
-use trench_formation::seek::{Fragments, apparent_obstacles};
-use trench_msgs::msg::{LeaderState, Member};
+use trench_msgs::msg::LeaderState;
+
+/// Step of the integration, s.
+const STEP: f64 = 1e-3;
 
 /// Twists that differ by less than this are the same.
 const SAME: f64 = 1e-9;
@@ -26,49 +30,109 @@ impl Tick {
         command: &mut Command,
     ) -> Result<Wanted, Hold> {
         let member = self.inputs.member(&self.settings.robot).ok_or(Hold::NoPlace)?.clone();
-        let frame = self.inputs.frame(acts).ok_or(Hold::NoGoal)?;
+        let (map_from_segment, motion) = self.inputs.goals.frame(acts).ok_or(Hold::NoGoal)?;
         let duration = self.inputs.interval().min(self.settings.period);
         let robot = PointState {
             position: ahead.position() + settings.look_ahead * ahead.heading(),
-            velocity: self.reference.unwrap_or_else(|| self.told(settings, ahead, acts)),
+            velocity: self
+                .reference
+                .and_then(|reference| reference.at(acts))
+                .unwrap_or_else(|| self.told(settings, ahead, acts)),
         };
         // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
         let follows = !(member.leader.is_empty() || command.lost);
         let rank = if follows { member.rank } else { 1 };
-        let ahead_in_chain = if follows { self.robots_ahead(settings, &member, (at, acts)) } else { Ok(Vec::new()) };
-        let others = match ahead_in_chain {
-            Ok(others) => others,
-            Err(hold) => return self.slow_down(settings, robot, ahead, duration, hold, command),
+        let ahead_in_chain =
+            if follows { self.robots_ahead(settings, &member, (at, acts)) } else { Ok(Chain::default()) };
+        let chain = match ahead_in_chain {
+            Ok(chain) => chain,
+            Err(hold) => return self.slow_down(settings, (robot, acts), ahead, duration, hold, command),
         };
-        let apart = others.last().map(|leader| (leader.state.position - robot.position).norm());
-        command.beyond_reach = apart.filter(|apart| *apart > settings.zoning.radii().rho_bar);
         let segments = self.inputs.segments.clone().ok_or(Hold::NoPlace)?;
-        let segment = segments.curve(member.queue);
-        if settings.law.seeks(rank) && segment.is_none() {
-            return Err(Hold::NoPlace);
+        let apart = chain.leader.map(|ahead| (ahead.leader.state.position - robot.position).norm());
+        command.beyond_reach = apart.filter(|apart| *apart > settings.agent.zoning.radii().rho_bar);
+        let mut hulls = self.inputs.obstacles.as_ref().map(|heard| heard.message.at(acts)).unwrap_or_default();
+        for stranger in self.inputs.strangers(&self.settings.robot) {
+            hulls.to_mut().add_body(Vector2::new(stranger.x, stranger.y), self.settings.body_radius);
         }
-        let hulls = self.hulls();
-        let fragments =
-            segment.map_or_else(Fragments::default, |curve| self.fragments(settings, curve, &frame, (&hulls, &others)));
-        let around = Around { goal, frame, segment, rank, ahead: &others, hulls: &hulls, fragments: &fragments };
-        let driven = self.agent.drive(settings, &around, robot, duration);
+        let zoned = settings.law.is_zoned();
+        let around = Surroundings {
+            // A clock that never runs back: what the controller remembers has times.
+            time: at.steady.0 as f64 * 1e-9,
+            curve: segments.curve(member.queue).ok_or(Hold::NoPlace)?,
+            map_from_segment,
+            motion,
+            goal: self.drawing(settings, (&member.leader, rank), (at, acts), goal, &chain)?,
+            leader: chain.leader.filter(|_| zoned).map(|ahead| ahead.leader),
+            ahead: if zoned { &chain.others } else { &[] },
+            real: &hulls.real,
+            apparent: &hulls.apparent,
+            velocities: &hulls.velocities,
+        };
+        let agent = self.agent.as_mut().ok_or(Hold::NotFinite)?;
+        agent.sense(&around).map_err(|_| Hold::NotFinite)?;
+        let driven = agent.drive(&around, robot, duration, STEP);
         if driven.cut {
             command.limits |= LeaderState::LIMIT_WHEELS;
         }
-        self.reference = Some(driven.end);
-        let distance = driven.drawn.map_or(0.0, |drawn| (drawn - robot.position).norm());
+        self.reference = Some(Reference { from: acts, duration, start: robot.velocity, end: driven.end.velocity });
+        let action = driven.first;
+        let epoch = self.inputs.assignment.as_ref().map_or(0, |assignment| assignment.epoch);
+        let driving =
+            Driving { settings, around: &around, leader: chain.leader, driven: &driven, robot, acts, duration, epoch };
+        let watched = driving.watched(&mut self.news);
+        if self.draws {
+            let radii = zoned.then(|| settings.agent.zoning.radii());
+            let picture = Picture {
+                robot: &self.settings.robot,
+                agent,
+                around: &around,
+                point: robot.position,
+                action: &action,
+                radii,
+            };
+            self.picture = Some(picture.markers(acts));
+        }
+        let zone = action
+            .zone
+            .zip(chain.leader)
+            .map(|(zone, leader)| (zone, (leader.leader.state.position - robot.position).norm()));
+        let deviation = Some(action.deviation).filter(|deviation| deviation.is_finite());
         Ok(Wanted {
-            twist: self.twist(settings, ahead, driven.mean, duration),
-            drawn: driven.drawn,
-            distance,
-            lyapunov: Lyapunov { value: driven.steered.lyapunov, rate: driven.steered.lyapunov_rate + driven.limited },
-            acceleration: driven.acceleration,
-            detour: driven.drawn.filter(|_| settings.detours),
+            twist: self.twist(settings, ahead, driven.mean_velocity, duration),
+            drawn: action.attraction,
+            distance: deviation.or(self.distance).unwrap_or(0.0),
+            lyapunov: Lyapunov {
+                value: action.steered.lyapunov,
+                rate: action.steered.lyapunov_rate + action.cut_power,
+            },
+            acceleration: driven.mean_acceleration,
+            detour: action.attraction.filter(|_| settings.detours),
+            watched: Some(watched),
+            zone,
         })
     }
 
+    /// The goal point that draws the robot; none where the segment does.
+    fn drawing(
+        &self,
+        settings: &DynamicSettings,
+        (leader_name, rank): (&str, u32),
+        (at, acts): (Times, RosTime),
+        goal: GoalMotion,
+        chain: &Chain,
+    ) -> Result<Option<GoalMotion>, Hold> {
+        if settings.law.seeks(rank) {
+            return Ok(None);
+        }
+        let Some(leader) = chain.leader else { return Ok(Some(settings.law.goal(goal))) };
+        let fresh = (at, self.settings.goal_age_limit);
+        let (leaders, _) = self.inputs.goals.of(leader_name, acts, fresh).ok_or(Hold::NoGoal)?;
+        Ok(Some(DynamicLaw::behind(leader.leader.state, leaders, goal)))
+    }
+
     /// The twist that moves the steered point by `mean` (m/s), at the heading of the middle of the tick.
-    fn twist(&self, settings: &DynamicSettings, ahead: Pose, mean: Vector2<f64>, duration: f64) -> Twist {
+    pub(crate) fn twist(&self, settings: &DynamicSettings, ahead: Pose, mean: Vector2<f64>, duration: f64) -> Twist {
         if mean.norm() < settings.rest_speed {
             return Twist::ZERO;
         }
@@ -85,110 +149,17 @@ impl Tick {
 
     /// Where limits or the filter changed the twist, the law goes on from what the robot really does.
     pub(crate) fn follow_limits(&mut self, ahead: Pose, wanted: Twist, sent: Twist) {
-        let Some(settings) = &self.settings.dynamic else { return };
         let differs = (wanted.v - sent.v).abs() + (wanted.omega - sent.omega).abs() > SAME;
         if differs {
-            self.reference = Some(hand_velocity(settings.look_ahead, ahead, sent));
+            let velocity = self.steered_velocity(ahead, sent);
+            self.reference = self.reference.map(|reference| reference.replaced(velocity));
         }
     }
 
-    /// The robots ahead in the chain at `acts`, the leader last.
-    fn robots_ahead(
-        &self,
-        settings: &DynamicSettings,
-        member: &Member,
-        (at, acts): (Times, RosTime),
-    ) -> Result<Vec<Ahead>, Hold> {
-        if !settings.law.is_chained() || member.rank <= 1 {
-            return Ok(Vec::new());
-        }
-        let mut others: Vec<(u32, Ahead)> = Vec::new();
-        for other in self.inputs.members_ahead(member) {
-            match self.inputs.teammate(&other.robot, (at.steady, acts), settings.leader_age) {
-                Some(ahead) => others.push((other.rank, ahead)),
-                // Those farther ahead only matter when they come near, and then the filter sees them.
-                None if other.rank + 1 < member.rank => {}
-                None => return Err(Hold::NoLeader(other.robot.clone())),
-            }
-        }
-        if others.last().is_none_or(|(rank, _)| rank + 1 != member.rank) {
-            return Err(Hold::NoLeader(member.leader.clone()));
-        }
-        Ok(others.into_iter().map(|(_, ahead)| ahead).collect())
-    }
-
-    /// A follower whose leader is silent comes to rest as its limits let it.
-    fn slow_down(
-        &mut self,
-        settings: &DynamicSettings,
-        robot: PointState,
-        ahead: Pose,
-        duration: f64,
-        hold: Hold,
-        command: &mut Command,
-    ) -> Result<Wanted, Hold> {
-        command.limits |= LeaderState::LIMIT_STALE;
-        let slower = robot.velocity.norm() - settings.capability.acceleration * duration;
-        if slower <= settings.rest_speed {
-            return Err(hold);
-        }
-        let end = robot.velocity.cap_magnitude(slower);
-        self.reference = Some(end);
-        command.hold = Some(hold);
-        Ok(Wanted {
-            twist: self.twist(settings, ahead, 0.5 * (robot.velocity + end), duration),
-            drawn: None,
-            distance: 0.0,
-            lyapunov: Lyapunov::default(),
-            acceleration: (end - robot.velocity) / duration,
-            detour: None,
-        })
-    }
-
-    /// The apparent obstacles as the law sees them, and the robots that have no part in the formation.
-    fn hulls(&self) -> Vec<MovingHull> {
-        let heard = self.inputs.obstacles.iter().flat_map(|heard| &heard.message);
-        let hulls = heard.filter_map(|hull| {
-            // What is no hull stops the robot in the safety filter.
-            let shape = Shape::new(&hull.points, hull.radius).ok()?;
-            Some(MovingHull { shape, velocity: hull.velocity })
-        });
-        let strangers = self.inputs.strangers(&self.settings.robot).filter_map(|stranger| {
-            let shape = Shape::new(&[Vector2::new(stranger.x, stranger.y)], self.settings.body_radius).ok()?;
-            Some(MovingHull { shape, velocity: Vector2::zeros() })
-        });
-        hulls.chain(strangers).collect()
-    }
-
-    /// Steps (1) to (3) of 7.5.2 for this robot: hulls, and the robots ahead of it where they count, take parts of its
-    /// segment away.
-    fn fragments(
-        &self,
-        settings: &DynamicSettings,
-        curve: &Curve,
-        frame: &Frame,
-        (hulls, ahead): (&[MovingHull], &[Ahead]),
-    ) -> Fragments {
-        let segment = Placed::new(curve, frame.map_from_segment());
-        let whole = (0.0, curve.length());
-        let find = |outlines: &[Outline<'_>]| {
-            Fragments::find(&segment, whole, outlines, settings.potential.cut(), settings.seeking.room)
-        };
-        let outlines: Vec<Outline<'_>> = hulls.iter().map(|hull| hull.shape.outline()).collect();
-        match settings.encroaching {
-            Encroaching::Nothing => Fragments::whole(whole),
-            Encroaching::Obstacles => find(&outlines),
-            Encroaching::ObstaclesAndRobots => {
-                let real: Vec<Obstacle> =
-                    (0..).zip(hulls).map(|(id, hull)| Obstacle { id, shape: hull.shape.clone() }).collect();
-                let positions: Vec<Vector2<f64>> = ahead.iter().map(|other| other.state.position).collect();
-                let merged = apparent_obstacles(&real, &positions, self.settings.body_radius, settings.clearance);
-                match merged {
-                    Ok(merged) => find(&merged.iter().map(|one| one.shape.outline()).collect::<Vec<_>>()),
-                    Err(_) => find(&outlines),
-                }
-            }
-        }
+    /// How the steered point moves under `twist`; without a dynamic law that is the middle of the axle.
+    pub(crate) fn steered_velocity(&self, pose: Pose, twist: Twist) -> Vector2<f64> {
+        let look_ahead = self.settings.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead);
+        hand_velocity(look_ahead, pose, twist)
     }
 
     /// What followers hear of the steered point: where it was at the exposure, and how it moved.
@@ -201,8 +172,8 @@ impl Tick {
     /// Distance of the robot's centre at the exposure from its segment, and the queue's tolerance, m.
     pub(crate) fn segment_distance(&self, command: &Command) -> Option<(f64, f64)> {
         let member = self.inputs.member(&self.settings.robot)?;
-        let frame = self.inputs.frame(command.exposure)?;
-        self.inputs.segments.as_ref()?.distance(command.pose?.position(), member.queue, &frame)
+        let (map_from_segment, _) = self.inputs.goals.frame(command.exposure)?;
+        self.inputs.segments.as_ref()?.distance(command.pose?.position(), member.queue, map_from_segment)
     }
 }
 

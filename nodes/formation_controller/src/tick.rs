@@ -1,23 +1,24 @@
 //! One tick: from the newest team state to a command.
 
-use crate::dynamic::Agent;
+use crate::dynamic::Reference;
 use crate::hold::Hold;
 use crate::inputs::Inputs;
+use crate::monitor::{Monitor, News, Watched};
+use crate::robot::DEVIATION;
 use crate::settings::Settings;
 use crate::team_link::TeamLink;
 use crate::{Deviation, Predictor};
 use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
-use trench_formation::kinematics::{Limited, Pose, Twist, Wheels, saturate};
-use trench_formation::laws::{GoalMotion, Lyapunov};
+use trench_formation::agent::Agent;
+use trench_formation::kinematics::{Pose, Twist, Wheels};
+use trench_formation::laws::Lyapunov;
 use trench_formation::safety::Side;
-use trench_msgs::msg::{Goal, LeaderState, RobotState, RunState};
-
-/// Speeds by which a robot may miss its command before it counts as deviating, and for how long (invariant 8).
-const DEVIATION: (f64, f64, f64) = (0.08, 2.5, 0.3);
-
-/// A stamp may be this far ahead of our clock, s: more is a pose from the future, which nobody has.
-pub(crate) const CLOCK_ERROR: f64 = 0.005;
+use trench_formation::stability::Balanced;
+use trench_formation::trench::AnyTrench;
+use trench_formation::zoning::Zone;
+use trench_msgs::msg::{Goal, RobotState, RunState};
+use trench_msgs::visualization_msgs::MarkerArray;
 
 /// What a law wants, and what it says of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +33,10 @@ pub(crate) struct Wanted {
     pub(crate) acceleration: Vector2<f64>,
     /// What the safety filter leads round things to.
     pub(crate) detour: Option<Vector2<f64>>,
+    /// What the monitor looks at; none while no law drives.
+    pub(crate) watched: Option<Watched>,
+    /// Where the leader is, and how far.
+    pub(crate) zone: Option<(Zone, f64)>,
 }
 
 /// What a tick decides.
@@ -45,6 +50,8 @@ pub(crate) struct Command {
     pub(crate) hold: Option<Hold>,
     pub(crate) pose: Option<Pose>,
     pub(crate) wanted: Option<Wanted>,
+    /// What the monitor makes of it.
+    pub(crate) balanced: Option<Balanced>,
     /// Whether the robot is looking for its team (Remark 6.2.1).
     pub(crate) lost: bool,
     /// How far the leader is where that is beyond rho_bar, m.
@@ -57,20 +64,37 @@ pub(crate) struct Tick {
     pub(crate) inputs: Inputs,
     pub(crate) predictor: Predictor,
     pub(crate) team_link: TeamLink,
-    deviation: Deviation,
-    holding: bool,
-    last: Option<(RosTime, Wheels)>,
-    pub(crate) agent: Agent,
+    pub(crate) deviation: Deviation,
+    pub(crate) holding: bool,
+    pub(crate) last: Option<(RosTime, Wheels)>,
+    /// What a dynamic law remembers; none under a kinematic one.
+    pub(crate) agent: Option<Agent<AnyTrench>>,
+    /// m, of the last tick that knew it: what a robot that rests says of itself.
+    pub(crate) distance: Option<f64>,
     /// The side of the last way round, and when it was taken last.
     pub(crate) detour: Option<(Side, Steady)>,
-    /// Velocity of the steered point at the end of the last tick, m/s: where the next one goes on.
-    pub(crate) reference: Option<Vector2<f64>>,
+    /// Where the law goes on.
+    pub(crate) reference: Option<Reference>,
+    pub(crate) monitor: Monitor,
+    /// What was expected at the last tick.
+    pub(crate) news: Option<News>,
+    /// When to draw, and what was drawn.
+    pub(crate) draws: bool,
+    pub(crate) picture: Option<MarkerArray>,
+    /// Why gains that the operator allowed are refused otherwise.
+    pub(crate) unstable_gains: Option<String>,
 }
 
 impl Tick {
     pub(crate) fn new(settings: Settings) -> Self {
         let (speed, turn, patience) = DEVIATION;
+        let agent = settings.dynamic.as_ref().map(|dynamic| Agent::new(dynamic.agent.clone()));
         Self {
+            monitor: Monitor::new(settings.monitor),
+            news: None,
+            unstable_gains: None,
+            draws: false,
+            picture: None,
             settings,
             inputs: Inputs::default(),
             predictor: Predictor::default(),
@@ -78,9 +102,31 @@ impl Tick {
             deviation: Deviation::new(speed, turn, patience),
             holding: false,
             last: None,
-            agent: Agent::default(),
+            agent,
+            distance: None,
             detour: None,
             reference: None,
+        }
+    }
+
+    /// Goes on under other settings.
+    pub(crate) fn set(&mut self, settings: Settings) {
+        self.agent = match (self.agent.take(), &settings.dynamic) {
+            (Some(mut agent), Some(dynamic)) => {
+                agent.set(dynamic.agent.clone());
+                Some(agent)
+            }
+            (None, Some(dynamic)) => Some(Agent::new(dynamic.agent.clone())),
+            (_, None) => None,
+        };
+        self.monitor = Monitor::new(settings.monitor);
+        self.settings = settings;
+    }
+
+    /// The robot has another place, or its segment is another one.
+    pub(crate) fn renew(&mut self) {
+        if let Some(agent) = &mut self.agent {
+            agent.renew();
         }
     }
 
@@ -96,7 +142,11 @@ impl Tick {
                     self.team_link.rest();
                 }
                 (command.twist, command.hold) = (Twist::ZERO, Some(hold));
-                (self.holding, self.reference) = (false, None);
+                (self.holding, self.reference, self.news) = (false, None, None);
+                self.monitor.restart();
+                if let Some(agent) = &mut self.agent {
+                    agent.pause();
+                }
             }
         }
         self.last = Some((acts, self.settings.axle.wheels(command.twist)));
@@ -114,6 +164,7 @@ impl Tick {
             hold: None,
             pose: self.inputs.robot(&self.settings.robot).map(pose_of),
             wanted: None,
+            balanced: None,
             lost: false,
             beyond_reach: None,
         }
@@ -125,99 +176,36 @@ impl Tick {
         if self.inputs.emergency_stop {
             return Err(Hold::EmergencyStop);
         }
+        if self.inputs.voices.are_several(&self.settings.robot, at.steady) {
+            return Err(Hold::TwoControllers);
+        }
         if self.inputs.run.as_ref().is_none_or(|run| run.state != RunState::RUNNING) {
             return Err(Hold::NotRunning);
         }
         let ahead = self.predictor.predict(pose_of(&state), command.exposure, acts);
+        let fresh = (at, self.settings.goal_age_limit);
         let recovery = self.recovery(at, acts, ahead);
         command.lost = recovery.is_some();
-        let assigned = || self.inputs.goal(&self.settings.robot, acts, at.steady, self.settings.goal_age_limit);
+        let assigned = || self.inputs.goals.of(&self.settings.robot, acts, fresh);
         let goal = recovery.map(|point| (point, Goal::PHASE_APPROACH)).or_else(assigned).ok_or(Hold::NoGoal)?;
         let wanted = match self.settings.dynamic.clone() {
             None => self.track(ahead, goal),
             Some(dynamic) => self.steer(&dynamic, (at, acts), ahead, goal.0, command)?,
         };
         command.wanted = Some(wanted);
+        self.distance = Some(wanted.distance);
         if !wanted.twist.is_finite() {
             return Err(Hold::NotFinite);
         }
         let followable = self.followable(wanted.twist, acts, command);
-        command.twist = self.safe(at, &state, followable, wanted.detour, command)?;
+        command.twist = self.safe((at, acts), &state, followable, wanted.detour, command)?;
         if !command.twist.is_finite() {
             return Err(Hold::NotFinite);
         }
         self.follow_limits(ahead, wanted.twist, command.twist);
+        self.watch(at, ahead, &wanted, command);
         Ok(())
     }
-
-    /// A kinematic law of chapter 4.
-    fn track(&mut self, ahead: Pose, (goal, phase): (GoalMotion, u8)) -> Wanted {
-        let tracked = self.settings.law.track(self.settings.dead_band, ahead, goal, self.holding);
-        self.holding = tracked.holding;
-        Wanted {
-            twist: tracked.twist,
-            drawn: Some(goal.position),
-            distance: tracked.distance,
-            lyapunov: tracked.lyapunov,
-            acceleration: Vector2::zeros(),
-            // A goal that moves on is no place that a robot could be in the way of.
-            detour: (phase != Goal::PHASE_MOVING || !self.holding).then_some(goal.position),
-        }
-    }
-
-    /// The robot's state, if it is one to drive by.
-    fn usable_state(&self, at: Times, command: &mut Command) -> Result<&RobotState, Hold> {
-        let state = self.inputs.robot(&self.settings.robot).ok_or(Hold::NoTeamState)?;
-        if !matches!(state.status, RobotState::STATUS_TRACKED | RobotState::STATUS_PREDICTED) {
-            return Err(Hold::NotSeen(state.status));
-        }
-        // Both clocks: the stamp tells how old the pose was on arrival, the monotonic clock how long it has lain here.
-        let lain = self.inputs.team.as_ref().map_or(f64::INFINITY, |team| at.steady.seconds_since(team.at));
-        let stamped = at.ros.seconds_since(command.exposure);
-        let unseen = unseen(state);
-        if stamped.max(lain) + unseen > self.settings.information_age_limit {
-            command.limits |= LeaderState::LIMIT_STALE;
-            return Err(Hold::OldPose(stamped.max(lain) + unseen));
-        }
-        if stamped.max(lain) > self.settings.pose_age_limit || stamped < -CLOCK_ERROR {
-            command.limits |= LeaderState::LIMIT_STALE;
-            return Err(Hold::OldPose(stamped));
-        }
-        Ok(state)
-    }
-
-    fn deviates(&mut self, exposure: RosTime, state: &RobotState, command: &mut Command) {
-        let seen = Twist { v: state.v, omega: state.omega };
-        // The localizer's velocity lags by a few frames: anything the robot was told lately explains it.
-        let commands = [self.predictor.in_force(exposure.plus_seconds(-0.15)), self.predictor.in_force(exposure)];
-        if self.deviation.observe(exposure, seen, commands) {
-            command.limits |= LeaderState::LIMIT_DEVIATES;
-        }
-    }
-
-    /// The twist nearest to the law's that the wheels can follow from what they were told last.
-    fn followable(&self, twist: Twist, acts: RosTime, command: &mut Command) -> Twist {
-        let wanted = saturate(self.settings.axle.wheels(twist), self.settings.max_wheel_speed);
-        if wanted.acted {
-            command.limits |= LeaderState::LIMIT_WHEELS;
-        }
-        let ramped = self.ramped(wanted.value, acts);
-        if ramped.acted {
-            command.limits |= LeaderState::LIMIT_RAMP;
-        }
-        self.settings.axle.twist(ramped.value)
-    }
-
-    fn ramped(&self, wanted: Wheels, acts: RosTime) -> Limited<Wheels> {
-        let (before, current) = self.last.unwrap_or((acts, Wheels::default()));
-        let interval = acts.seconds_since(before).clamp(0.0, 0.1);
-        self.settings.ramp.limit(current, wanted, interval)
-    }
-}
-
-/// Seconds since a robot was seen, at the exposure.
-pub(crate) fn unseen(state: &RobotState) -> f64 {
-    (f64::from(state.unseen.sec) + 1e-9 * f64::from(state.unseen.nanosec)).max(0.0)
 }
 
 /// The pose of a team state's robot.

@@ -23,10 +23,11 @@ const SHARED: [(&str, &str, Qos); 15] = [
 ];
 
 /// The topics that every robot has, by the end of their names.
-const OF_A_ROBOT: [(&str, &str, Qos); 7] = [
+const OF_A_ROBOT: [(&str, &str, Qos); 8] = [
     ("/odom", "nav_msgs/msg/Odometry", Qos::RELIABLE),
     ("/cmd_vel", "geometry_msgs/msg/TwistStamped", Qos::RELIABLE),
     ("/leader_state", "trench_msgs/msg/LeaderState", Qos::RELIABLE),
+    ("/stability", "trench_msgs/msg/Stability", Qos::RELIABLE),
     ("/link", "trench_msgs/msg/LinkStatus", Qos::RELIABLE),
     ("/battery_state", "sensor_msgs/msg/BatteryState", Qos::RELIABLE),
     ("/wheel_odom", "nav_msgs/msg/Odometry", Qos::RELIABLE),

@@ -15,6 +15,8 @@ pub struct Action {
     pub cut: bool,
     /// Power that the cut adds to the Lyapunov function besides the law's own rate, m^2/s^3.
     pub cut_power: f64,
+    /// Power that what moves around the robot adds besides.
+    pub powers: Powers,
     /// The point that draws the robot, m; none while its attraction is suspended.
     pub attraction: Option<Vector2<f64>>,
     /// Distance from the nearest or goal point, whether it draws or not, m; infinite where there is none.
@@ -40,6 +42,51 @@ pub struct Forces {
     pub obstacles: Vector2<f64>,
     /// Damping, feedforward and delta of (6.1).
     pub damping: Vector2<f64>,
+}
+
+impl Forces {
+    /// What potentials exert: minus the gradient of the Lyapunov function by the robot's position, m/s^2.
+    pub fn of_potentials(&self) -> Vector2<f64> {
+        self.trench + self.zoning + self.robots + self.obstacles
+    }
+}
+
+/// What moving things bring into the Lyapunov function, m^2/s^3, where the proofs (A.12, A.18) have them at rest in the segment's
+/// frame: Psi' d_hat . v for each, v its velocity relative to the segment.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Powers {
+    /// The leader.
+    pub leader: f64,
+    /// The other robots ahead.
+    pub robots: f64,
+    /// Obstacles.
+    pub obstacles: f64,
+}
+
+/// What each input brought into the Lyapunov function from one tick to the next, m^2/s^2.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work {
+    /// The law itself: -k |r'|^2 and what it says besides.
+    pub law: f64,
+    /// See [`Powers`].
+    pub leader: f64,
+    /// See [`Powers`].
+    pub robots: f64,
+    /// See [`Powers`].
+    pub obstacles: f64,
+    /// Limits of speed and acceleration.
+    pub limits: f64,
+}
+
+impl Work {
+    /// Adds a step of `step` (s).
+    pub(super) fn add(&mut self, action: &Action, step: f64) {
+        self.law += step * action.steered.lyapunov_rate;
+        self.leader += step * action.powers.leader;
+        self.robots += step * action.powers.robots;
+        self.obstacles += step * action.powers.obstacles;
+        self.limits += step * action.cut_power;
+    }
 }
 
 /// What a remedy does (7.6, 7.7, Remark 6.4.1).
@@ -71,4 +118,6 @@ pub struct Driven {
     pub first: Action,
     /// Whether limits ever cut.
     pub cut: bool,
+    /// What each input brings into the Lyapunov function.
+    pub work: Work,
 }

@@ -3,7 +3,7 @@ use super::attract::Attracted;
 use super::encroach::Encroachers;
 use super::remedy::Remedy;
 use super::surroundings::Moment;
-use super::{Action, AgentSettings, Driven, Forces, Method, Surroundings};
+use super::{Action, AgentSettings, Driven, Forces, Method, Powers, Surroundings, Work};
 use crate::Vector2;
 use crate::curve::Interval;
 use crate::hull::{Approach, HullError};
@@ -41,9 +41,37 @@ impl<T: Trench> Agent<T> {
         &self.settings
     }
 
+    /// Goes on under other settings: with the nearest point that it has, and the remedy that is under way.
+    pub fn set(&mut self, settings: AgentSettings<T>) {
+        self.settings = settings;
+        self.encroachers = None;
+    }
+
+    /// The segment is another one: neither the nearest point nor the fragments that it has are on it.
+    pub fn renew(&mut self) {
+        self.seeker = Seeker::default();
+        self.encroachers = None;
+    }
+
+    /// The robot is told to rest, whatever its law says: standing still is no sign now that it is caught.
+    pub fn pause(&mut self) {
+        self.remedy.pause();
+        self.last = None;
+    }
+
+    /// Arc length of the nearest point that it keeps, m.
+    pub fn kept(&self) -> Option<f64> {
+        self.seeker.kept()
+    }
+
     /// Its qualified fragments of the segment, m of arc length.
     pub fn fragments(&self) -> &[Interval] {
         self.fragments.intervals()
+    }
+
+    /// The guard, or the way out of a hull, that a robot at `from` goes by, m: for those who draw it. Empty without a remedy.
+    pub fn way_out(&self, from: Vector2<f64>) -> Vec<Vector2<f64>> {
+        self.remedy.way_out(from)
     }
 
     /// Begins a tick: seeks the qualified fragments anew (steps (1) to (3) of 7.5.2). While nothing moves that encroaches, once
@@ -66,13 +94,15 @@ impl<T: Trench> Agent<T> {
         let step = self.last.map_or(0.0, |last| (now - last).max(0.0));
         self.last = Some(now);
         let attracted = self.attract(around, &moment, robot.position, step);
-        let (steered, forces) = self.law(around, &moment, robot, &attracted);
+        let mut powers = Powers::default();
+        let (steered, forces) = self.law(around, &moment, robot, &attracted, &mut powers);
         let draws = attracted.attracting.draws;
         Action {
             steered,
             acceleration: steered.acceleration,
             cut: false,
             cut_power: 0.0,
+            powers,
             attraction: draws.then_some(attracted.attracting.foot.position),
             deviation: attracted.deviation,
             forces,
@@ -107,14 +137,16 @@ impl<T: Trench> Agent<T> {
         let step = duration / count;
         let first = self.act(around, robot, 0.0, step);
         let mut end = robot.advanced_semi_implicit(first.acceleration, step);
-        let mut cut = first.cut;
+        let (mut cut, mut work) = (first.cut, Work::default());
+        work.add(&first, step);
         for index in 1..count as u32 {
             let action = self.act(around, end, f64::from(index) * step, step);
             cut |= action.cut;
+            work.add(&action, step);
             end = end.advanced_semi_implicit(action.acceleration, step);
         }
         let mean_velocity = (end.position - robot.position) / duration;
-        Driven { end, mean_velocity, mean_acceleration: (end.velocity - robot.velocity) / duration, first, cut }
+        Driven { end, mean_velocity, mean_acceleration: (end.velocity - robot.velocity) / duration, first, cut, work }
     }
 
     fn law(
@@ -123,6 +155,7 @@ impl<T: Trench> Agent<T> {
         moment: &Moment<'_>,
         robot: PointState,
         attracted: &Attracted,
+        powers: &mut Powers,
     ) -> (Steered, Forces) {
         let (settings, attracting, since) = (&self.settings, attracted.attracting, moment.since);
         let target = attracting.draws.then(|| attracting.foot.position - robot.position);
@@ -136,16 +169,13 @@ impl<T: Trench> Agent<T> {
         if let (Some(offset), true) = (target, attracting.draws) {
             forces.trench = crate::laws::pull(&law.trench, offset);
         }
+        if let (Method::Goal(Some(damping)), Some(offset)) = (settings.method, target) {
+            law.damping = damping.coefficient(offset.norm());
+        }
         let steered = match (settings.method, attracted.foot, leader) {
-            (Method::Goal(damping), ..) => {
-                if let (Some(damping), Some(offset)) = (damping, target) {
-                    law.damping = damping.coefficient(offset.norm());
-                }
-                law.steer(robot, attracting, None, [])
-            }
             (Method::Directed { direction, compensates }, Some(foot), Some(leader)) => {
                 let directed = (direction.map(|direction| moment.segment.direction_in_map(direction)), compensates);
-                self.directed(around, moment, (robot, leader), directed, (&foot, &mut forces))
+                self.directed(around, moment, (robot, leader), directed, (&foot, &mut forces, powers))
             }
             _ => {
                 // Where the segment turns, robots at rest in it have different velocities: compared is what they do in it.
@@ -153,19 +183,26 @@ impl<T: Trench> Agent<T> {
                     leader.velocity - moment.motion.at(leader.position).velocity + attracting.foot.velocity
                 });
                 let turn = |push: Push| self.sidestepped(push, target);
-                let position = robot.position;
-                let ahead = around
-                    .ahead
-                    .iter()
-                    .map(|other| turn(Push::of_robot_ahead(&settings.zoning, position, other.coasted(since).position)));
-                let leading = leader.map(|leader| Push::of_leader(&settings.zoning, position, leader.position));
+                let (position, still) = (robot.position, attracting.foot.velocity);
+                let ahead = around.ahead.iter().map(|other| {
+                    let there = other.coasted(since);
+                    (turn(Push::of_robot_ahead(&settings.zoning, position, there.position)), there.velocity)
+                });
+                let leading = leader
+                    .map(|leader| (Push::of_leader(&settings.zoning, position, leader.position), leader.velocity));
                 let obstacles = (0..around.apparent.len()).map(|index| {
-                    turn(Push::of_obstacle(&settings.potential, self.approach(around, since, index, position)))
+                    let approach = self.approach(around, since, index, position);
+                    (turn(Push::of_obstacle(&settings.potential, approach)), around.velocity(index))
                 });
                 let Forces { zoning, robots, obstacles: of_obstacles, .. } = &mut forces;
-                let pushes = (ahead.inspect(|push| *robots += push.force))
-                    .chain(leading.inspect(|push| *zoning += push.force))
-                    .chain(obstacles.inspect(|push| *of_obstacles += push.force));
+                let tell = |(push, velocity): (Push, Vector2<f64>), force: &mut Vector2<f64>, power: &mut f64| {
+                    *force += push.force;
+                    *power += push.force.dot(&(velocity - still));
+                    push
+                };
+                let pushes = (ahead.map(|push| tell(push, robots, &mut powers.robots)))
+                    .chain(leading.map(|push| tell(push, zoning, &mut powers.leader)))
+                    .chain(obstacles.map(|push| tell(push, of_obstacles, &mut powers.obstacles)));
                 law.steer(robot, attracting, alike, pushes)
             }
         };
@@ -180,7 +217,7 @@ impl<T: Trench> Agent<T> {
         moment: &Moment<'_>,
         (robot, leader): (PointState, PointState),
         (direction, compensates): (Option<Vector2<f64>>, bool),
-        (foot, forces): (&crate::curve::Foot, &mut Forces),
+        (foot, forces, powers): (&crate::curve::Foot, &mut Forces, &mut Powers),
     ) -> Steered {
         let settings = &self.settings;
         let seen = |state: PointState| PointState {
@@ -199,20 +236,26 @@ impl<T: Trench> Agent<T> {
             leader_damping: settings.law.leader_damping,
             compensates,
         };
-        let mut steered = law.steer(robot_seen, attraction, seen(leader), &[]);
+        let leader_seen = seen(leader);
+        let mut steered = law.steer(robot_seen, attraction, leader_seen, &[]);
         forces.zoning = Push::of_leader(&settings.zoning, robot.position, leader.position).force;
-        let mut add = |push: Push, to: &mut Vector2<f64>| {
+        powers.leader = forces.zoning.dot(&leader_seen.velocity);
+        let still = moment.motion.at(robot.position).velocity;
+        let mut add = |push: Push, velocity: Vector2<f64>, force: &mut Vector2<f64>, power: &mut f64| {
             steered.acceleration += push.force;
             steered.lyapunov += push.value;
-            *to += push.force;
+            *force += push.force;
+            *power += push.force.dot(&(velocity - still));
         };
         for other in around.ahead {
-            let there = other.coasted(moment.since).position;
-            add(Push::of_robot_ahead(&settings.zoning, robot.position, there), &mut forces.robots);
+            let there = other.coasted(moment.since);
+            let push = Push::of_robot_ahead(&settings.zoning, robot.position, there.position);
+            add(push, there.velocity, &mut forces.robots, &mut powers.robots);
         }
         for index in 0..around.apparent.len() {
             let approach = self.approach(around, moment.since, index, robot.position);
-            add(Push::of_obstacle(&settings.potential, approach), &mut forces.obstacles);
+            let push = Push::of_obstacle(&settings.potential, approach);
+            add(push, around.velocity(index), &mut forces.obstacles, &mut powers.obstacles);
         }
         steered.acceleration += moment.motion.at(robot.position).acceleration;
         steered

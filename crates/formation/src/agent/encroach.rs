@@ -37,13 +37,34 @@ impl<T: Trench> Agent<T> {
                 if self.encroachers.as_ref().is_some_and(|known| known.still_hold(around, &robots)) {
                     return Ok(());
                 }
-                let all = apparent_obstacles(around.real, &robots, radius, self.settings.clearance)?;
+                let all = self.merge(around, &robots, radius)?;
                 self.fragments = self.left_by(around, &all);
                 let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
                 self.encroachers = Some(Encroachers { map_from_segment, real, robots });
             }
         }
         Ok(())
+    }
+
+    /// Step (1) of 7.5.2: the apparent obstacles with the robots ahead merged in, where these encroach; none where they do not.
+    ///
+    /// # Errors
+    /// Robots ahead whose position is not finite.
+    pub fn merged(&self, around: &Surroundings<'_>) -> Result<Vec<ApparentObstacle>, HullError> {
+        match self.settings.encroaching {
+            Encroaching::ObstaclesAndRobots(radius) => self.merge(around, &self.robots_there(around, radius), radius),
+            Encroaching::Nothing | Encroaching::Obstacles => Ok(Vec::new()),
+        }
+    }
+
+    fn merge(
+        &self,
+        around: &Surroundings<'_>,
+        robots: &[Vector2<f64>],
+        radius: f64,
+    ) -> Result<Vec<ApparentObstacle>, HullError> {
+        let clearance = self.settings.clearance;
+        apparent_obstacles(around.real, robots, radius, clearance, |a, b| around.parted(a, b, clearance))
     }
 
     fn left_by(&self, around: &Surroundings<'_>, obstacles: &[ApparentObstacle]) -> Fragments {

@@ -11,7 +11,7 @@ mod remedy;
 mod settings;
 mod surroundings;
 
-pub use action::{Action, Driven, Forces, RemedyState};
+pub use action::{Action, Driven, Forces, Powers, RemedyState, Work};
 pub use controller::Agent;
 pub use settings::{AgentSettings, Encroaching, Method, Remedies};
 pub use surroundings::{Leader, Surroundings};

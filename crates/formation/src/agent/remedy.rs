@@ -168,6 +168,22 @@ impl Remedy {
         }
     }
 
+    /// See [`Agent::way_out`](super::Agent::way_out).
+    pub(super) fn way_out(&self, from: Vector2<f64>) -> Vec<Vector2<f64>> {
+        match &self.state {
+            State::Guarded { guard, sunk, .. } => guard.sunk(*sunk).outline().to_vec(),
+            State::Escaping { carrot, way, .. } | State::Led { carrot, way, .. } => {
+                [from, *carrot].into_iter().chain(way.iter().copied()).collect()
+            }
+            State::Free | State::Suspended { .. } => Vec::new(),
+        }
+    }
+
+    /// The robot rests on purpose: what it was watched for begins anew.
+    pub(super) fn pause(&mut self) {
+        self.watch.restart();
+    }
+
     /// A tick: guards have gone on with their obstacles, and what is gone needs no remedy.
     pub(super) fn carry_on(&mut self, around: &Surroundings<'_>, elapsed: f64) {
         let (State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. }) = &self.state else { return };

@@ -34,7 +34,7 @@ pub struct AgentSettings<T> {
 /// Which law steers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
-    /// (5.1) and (5.3) with the constant damping of the law, (5.2) with a damping of its own: to the goal point; nothing repels.
+    /// (5.1) and (5.3) with the constant damping of the law, (5.2) with a damping of its own: to the goal point. Nobody leads.
     Goal(Option<HyperbolicDamping>),
     /// (6.1): to the point of attraction in a direction of the segment's frame, or across the segment. delta if `compensates`.
     Directed {

@@ -66,6 +66,13 @@ impl<'a> Surroundings<'a> {
         since * self.velocity(index)
     }
 
+    /// Whether two real obstacles are kept apart though their hulls are nearer than the clearance: pieces of one long wall (9.2).
+    pub(super) fn parted(&self, a: u32, b: u32, clearance: f64) -> bool {
+        let hull = |id: u32| self.apparent.iter().find(|obstacle| obstacle.members.contains(&id));
+        let (Some(a), Some(b)) = (hull(a), hull(b)) else { return false };
+        a.id != b.id && a.shape.outline().is_nearer_than(&b.shape.outline(), clearance)
+    }
+
     /// Velocity of an apparent obstacle, m/s.
     pub(super) fn velocity(&self, index: usize) -> Vector2<f64> {
         self.velocities.get(index).copied().unwrap_or_else(Vector2::zeros)

@@ -7,6 +7,9 @@ use crate::hull::{Approach, Outline};
 const MIDDLE: f64 = 0.01;
 const TILT: f64 = 0.1;
 
+/// Points that stand for a drawn guard.
+const OUTLINE: usize = 17;
+
 /// An auxiliary arc or auxiliary lines from P1 to P2, seen from P0 on the segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guard {
@@ -49,6 +52,23 @@ impl Guard {
         }
         let guard = self.alone(point);
         if guard.gap < bare.gap { self.unbalanced(guard, point) } else { bare }
+    }
+
+    /// Points along it from P1 to P2, grown as it is, m.
+    pub fn outline(&self) -> [Vector2<f64>; OUTLINE] {
+        let [first, second] = self.ends.map(|end| end - self.centre);
+        core::array::from_fn(|index| {
+            let share = index as f64 / (OUTLINE - 1) as f64;
+            let arm = match self.apex.map(|apex| apex - self.centre) {
+                Some(apex) if share < 0.5 => first + 2.0 * share * (apex - first),
+                Some(apex) => apex + (2.0 * share - 1.0) * (second - apex),
+                None => {
+                    let (sine, cosine) = libm::sincos(share * libm::atan2(first.perp(&second), first.dot(&second)));
+                    Vector2::new(cosine * first.x - sine * first.y, sine * first.x + cosine * first.y)
+                }
+            };
+            self.centre + arm + self.radius * arm / arm.norm().max(f64::MIN_POSITIVE)
+        })
     }
 
     /// By how much the guard is nearer than the obstacle, m.

@@ -1,4 +1,5 @@
 //! Stable zone, closed forms of chapter 4, input-to-state bounds of chapter 8.
+mod balance;
 mod cascade;
 mod closed_form;
 mod curvature;
@@ -13,6 +14,7 @@ mod special;
 mod stable_zone;
 mod violation;
 
+pub use balance::{Balance, Balanced, Input, Moment, Supply};
 pub use cascade::cascade_bounds;
 pub use closed_form::{ClosedForm, TwoGainLaw};
 pub use energy::velocity_energy;

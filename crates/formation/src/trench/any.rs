@@ -1,5 +1,8 @@
 //! A trench that is chosen while the program runs: by a parameter or a scenario file.
-use super::{Conic, Hyperbolic, Interval, Quadratic, Saturated, SlopeTable, Slopes, SquareRoot, Trench, Written};
+use super::{
+    Conic, CriticallyDamped, Hyperbolic, HyperbolicDamping, Interval, Quadratic, Saturated, SlopeTable, Slopes,
+    SquareRoot, Trench, Written,
+};
 
 /// One of the trenches of this module.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +17,8 @@ pub enum AnyTrench {
     Saturated(Saturated),
     /// F_2 of Example 5.2.3.
     SquareRoot(SquareRoot),
+    /// Corollary A.9.1 for the damping of Example A.9.2.
+    Critical(CriticallyDamped<HyperbolicDamping>),
     /// Lemma 5.2.1.
     Table(SlopeTable),
     /// A formula.
@@ -28,6 +33,7 @@ impl AnyTrench {
             Self::Hyperbolic(trench) => trench,
             Self::Saturated(trench) => trench,
             Self::SquareRoot(trench) => trench,
+            Self::Critical(trench) => trench,
             Self::Table(trench) => trench,
             Self::Written(trench) => &**trench,
         }

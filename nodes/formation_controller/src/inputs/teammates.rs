@@ -1,0 +1,165 @@
+//! What the other robots say of themselves.
+
+use super::{Heard, INTERVAL, Inputs, stamps::timely, vector};
+use crate::refusal::Refusal;
+use std::collections::BTreeMap;
+use trench_core::{RosTime, Steady, Times};
+use trench_formation::agent::Leader;
+use trench_formation::kinematics::PointState;
+use trench_msgs::msg::{Assignment, LeaderState, Member};
+
+/// The newest states of the others.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Others {
+    /// Whatever they follow.
+    said: BTreeMap<String, Heard<LeaderState>>,
+    /// The newest that counted when it came: of our assignment then.
+    teammates: BTreeMap<String, Heard<LeaderState>>,
+}
+
+/// A robot ahead in the chain at a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ahead {
+    /// The point that it steers, and its distance from what draws it.
+    pub(crate) leader: Leader,
+    /// Its Lyapunov function, m^2/s^2.
+    pub(crate) lyapunov: f64,
+}
+
+impl Inputs {
+    /// Takes what another robot says of itself; as a teammate it counts only under the same assignment and formation.
+    ///
+    /// # Errors
+    /// Why it does not count.
+    pub(crate) fn take_other(&mut self, at: Times, name: &str, message: LeaderState) -> Result<(), Refusal> {
+        let numbers = [&message.point, &message.point_velocity].map(|point| point.x + point.y);
+        if !(numbers[0] + numbers[1] + message.goal_distance + message.lyapunov).is_finite() {
+            return Err(Refusal::NotFinite);
+        }
+        let before = self.others.said.get(name).map(|before| RosTime::from(&before.message.header.stamp));
+        timely(at, RosTime::from(&message.header.stamp), before)?;
+        let judged = self.assignment.as_ref().map_or(Ok(()), |ours| same(ours, &message));
+        let heard = Heard { at: at.steady, message };
+        if judged.is_ok() {
+            self.others.teammates.insert(name.to_owned(), heard.clone());
+        }
+        self.others.said.insert(name.to_owned(), heard);
+        judged
+    }
+
+    /// Whether one of the other robots of the queue of `member` is heard; a robot that has none is not missing any.
+    pub(crate) fn hears_of_queue(&self, member: &Member, now: Steady, age_limit: f64) -> bool {
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        let mut mates = members.filter(|other| other.queue == member.queue && other.robot != member.robot).peekable();
+        mates.peek().is_none() || mates.any(|mate| self.others.said(&mate.robot, now, age_limit).is_some())
+    }
+
+    /// A robot ahead at `time`: what it said last, going on as it moved; none once that was received, or made, more than `age_limit`
+    /// seconds ago.
+    ///
+    /// Right after a new assignment nobody has spoken of it yet: where a robot is still holds then, how far it is from what draws it
+    /// does not.
+    pub(crate) fn teammate(&self, name: &str, (at, time): (Times, RosTime), age_limit: f64) -> Option<Ahead> {
+        let ours = self.assignment.as_ref();
+        let of_ours = |heard: &&Heard<LeaderState>| ours.is_none_or(|ours| same(ours, &heard.message).is_ok());
+        let newest = self.others.said.get(name).filter(of_ours);
+        let heard = newest.or_else(|| self.others.teammates.get(name))?;
+        let said = &heard.message;
+        let stamp = RosTime::from(&said.header.stamp);
+        if at.steady.seconds_since(heard.at).max(at.ros.seconds_since(stamp)) > age_limit {
+            return None;
+        }
+        let elapsed = time.seconds_since(stamp).clamp(0.0, age_limit + INTERVAL);
+        let velocity = vector(&said.point_velocity);
+        let state = PointState { position: vector(&said.point) + elapsed * velocity, velocity };
+        let deviation = if of_ours(&heard) { said.goal_distance } else { f64::INFINITY };
+        Some(Ahead { leader: Leader { state, deviation }, lyapunov: said.lyapunov })
+    }
+}
+
+impl Others {
+    /// The robots whose leader states arrived within `age_limit` seconds, in order of name.
+    pub(crate) fn heard(&self, now: Steady, age_limit: f64) -> impl Iterator<Item = &str> {
+        let fresh = move |heard: &Heard<LeaderState>| now.seconds_since(heard.at) <= age_limit;
+        self.said.iter().filter(move |(_, heard)| fresh(heard)).map(|(name, _)| name.as_str())
+    }
+
+    /// What `name` says of itself, if it was received within `age_limit` seconds.
+    pub(crate) fn said(&self, name: &str, now: Steady, age_limit: f64) -> Option<&LeaderState> {
+        let heard = self.said.get(name).filter(|heard| now.seconds_since(heard.at) <= age_limit)?;
+        Some(&heard.message)
+    }
+}
+
+fn same(ours: &Assignment, message: &LeaderState) -> Result<(), Refusal> {
+    if message.epoch != ours.epoch {
+        return Err(Refusal::Epoch { theirs: message.epoch, ours: ours.epoch });
+    }
+    if message.formation_hash != ours.formation_hash {
+        return Err(Refusal::Formation);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trench_msgs::msg::Point2;
+
+    fn at(seconds: f64) -> Times {
+        Times { ros: RosTime(0).plus_seconds(seconds), steady: Steady(0).plus_seconds(seconds) }
+    }
+
+    fn state(stamp: f64, epoch: u64) -> LeaderState {
+        let mut state = LeaderState { epoch, goal_distance: 0.25, ..Default::default() };
+        state.header.stamp = RosTime(0).plus_seconds(stamp).into();
+        state.point_velocity = Point2 { x: 0.5, y: 0.0 };
+        state
+    }
+
+    fn inputs(epoch: u64) -> Inputs {
+        Inputs { assignment: Some(Assignment { epoch, ..Default::default() }), ..Default::default() }
+    }
+
+    fn ahead(inputs: &Inputs, seconds: f64) -> Option<Leader> {
+        inputs.teammate("r", (at(seconds), at(seconds).ros), 0.4).map(|ahead| ahead.leader)
+    }
+
+    #[test]
+    fn it_goes_on_for_a_bounded_time() {
+        let mut inputs = inputs(4);
+        inputs.take_other(at(1.0), "r", state(1.0, 4)).unwrap();
+        assert_eq!(ahead(&inputs, 1.2).unwrap().state.position.x, 0.1);
+        assert_eq!(ahead(&inputs, 1.2).unwrap().deviation, 0.25);
+        assert!(ahead(&inputs, 1.5).is_none());
+    }
+
+    /// What was made long ago is old, however late it came.
+    #[test]
+    fn what_waited_on_its_way_is_old() {
+        let mut inputs = inputs(4);
+        inputs.take_other(at(2.0), "r", state(1.0, 4)).unwrap();
+        assert!(ahead(&inputs, 2.0).is_none());
+    }
+
+    #[test]
+    fn a_new_assignment_forgets_how_far_anybody_has_come() {
+        let mut inputs = inputs(4);
+        inputs.take_other(at(1.0), "r", state(1.0, 4)).unwrap();
+        inputs.assignment = Some(Assignment { epoch: 5, ..Default::default() });
+        assert_eq!(ahead(&inputs, 1.0).unwrap().deviation, f64::INFINITY);
+        // Who still follows the old one no longer counts.
+        assert!(inputs.take_other(at(1.1), "r", state(1.1, 4)).is_err());
+        assert!(ahead(&inputs, 1.45).is_none());
+    }
+
+    /// The leader heard of the new assignment before we did.
+    #[test]
+    fn what_came_early_counts_in_time() {
+        let mut inputs = inputs(4);
+        assert_eq!(inputs.take_other(at(1.0), "r", state(1.0, 5)), Err(Refusal::Epoch { theirs: 5, ours: 4 }));
+        assert!(ahead(&inputs, 1.0).is_none());
+        inputs.assignment = Some(Assignment { epoch: 5, ..Default::default() });
+        assert_eq!(ahead(&inputs, 1.0).unwrap().deviation, 0.25);
+    }
+}

@@ -1,0 +1,69 @@
+//! What the robot is known to do, and what its motors can follow.
+
+use crate::hold::Hold;
+use crate::tick::{Command, Tick};
+use trench_core::{RosTime, Times};
+use trench_formation::kinematics::{Limited, Twist, Wheels, saturate};
+use trench_msgs::msg::{LeaderState, RobotState};
+
+/// Speeds by which a robot may miss its command before it counts as deviating, and for how long (invariant 8).
+pub(crate) const DEVIATION: (f64, f64, f64) = (0.08, 2.5, 0.3);
+
+/// A stamp may be this far ahead of our clock, s: more is a pose from the future, which nobody has.
+const CLOCK_ERROR: f64 = 0.005;
+
+impl Tick {
+    /// The robot's state, if it is one to drive by.
+    pub(crate) fn usable_state(&self, at: Times, command: &mut Command) -> Result<&RobotState, Hold> {
+        let state = self.inputs.robot(&self.settings.robot).ok_or(Hold::NoTeamState)?;
+        if !matches!(state.status, RobotState::STATUS_TRACKED | RobotState::STATUS_PREDICTED) {
+            return Err(Hold::NotSeen(state.status));
+        }
+        // Both clocks: the stamp tells how old the pose was on arrival, the monotonic clock how long it has lain here.
+        let lain = self.inputs.team.as_ref().map_or(f64::INFINITY, |team| at.steady.seconds_since(team.at));
+        let stamped = at.ros.seconds_since(command.exposure);
+        let unseen = unseen(state);
+        if stamped.max(lain) + unseen > self.settings.information_age_limit {
+            command.limits |= LeaderState::LIMIT_STALE;
+            return Err(Hold::OldPose(stamped.max(lain) + unseen));
+        }
+        if stamped.max(lain) > self.settings.pose_age_limit || stamped < -CLOCK_ERROR {
+            command.limits |= LeaderState::LIMIT_STALE;
+            return Err(Hold::OldPose(stamped));
+        }
+        Ok(state)
+    }
+
+    pub(crate) fn deviates(&mut self, exposure: RosTime, state: &RobotState, command: &mut Command) {
+        let seen = Twist { v: state.v, omega: state.omega };
+        // The localizer's velocity lags by a few frames: anything the robot was told lately explains it.
+        let commands = [self.predictor.in_force(exposure.plus_seconds(-0.15)), self.predictor.in_force(exposure)];
+        if self.deviation.observe(exposure, seen, commands) {
+            command.limits |= LeaderState::LIMIT_DEVIATES;
+        }
+    }
+
+    /// The twist nearest to the law's that the wheels can follow from what they were told last.
+    pub(crate) fn followable(&self, twist: Twist, acts: RosTime, command: &mut Command) -> Twist {
+        let wanted = saturate(self.settings.axle.wheels(twist), self.settings.max_wheel_speed);
+        if wanted.acted {
+            command.limits |= LeaderState::LIMIT_WHEELS;
+        }
+        let ramped = self.ramped(wanted.value, acts);
+        if ramped.acted {
+            command.limits |= LeaderState::LIMIT_RAMP;
+        }
+        self.settings.axle.twist(ramped.value)
+    }
+
+    fn ramped(&self, wanted: Wheels, acts: RosTime) -> Limited<Wheels> {
+        let (before, current) = self.last.unwrap_or((acts, Wheels::default()));
+        let interval = acts.seconds_since(before).clamp(0.0, 0.1);
+        self.settings.ramp.limit(current, wanted, interval)
+    }
+}
+
+/// Seconds since a robot was seen, at the exposure.
+pub(crate) fn unseen(state: &RobotState) -> f64 {
+    (f64::from(state.unseen.sec) + 1e-9 * f64::from(state.unseen.nanosec)).max(0.0)
+}

@@ -1,0 +1,154 @@
+//! Followers and what they hear of the robots ahead.
+
+use crate::bench::{Bench, PERIOD, formation, make};
+use trench_core::RosTime;
+use trench_msgs::Encode;
+use trench_msgs::geometry_msgs::TwistStamped;
+use trench_msgs::msg::{Assignment, LeaderState, LinkStatus, Member, Point2, RobotState};
+
+/// robot1 follows robot2 in a chain on the segment y = 0.9, in the frame of the map.
+fn follower() -> Bench {
+    let core = make(&[("team", "[robot1, robot2]"), ("law", "chain")]).unwrap();
+    let mut bench = Bench::of(core);
+    bench.running();
+    formation(&mut bench);
+    bench
+}
+
+fn leader_at(bench: &Bench, x: f64, epoch: u64) -> LeaderState {
+    let mut state = LeaderState { epoch, formation_hash: 7, rank: 1, ..Default::default() };
+    state.header.stamp = bench.times().ros.plus_seconds(-0.035).into();
+    state.point = Point2 { x, y: 0.9 };
+    state
+}
+
+#[test]
+fn a_follower_goes_after_its_leader_and_rests_when_that_is_silent() {
+    let mut bench = follower();
+    let fastest = follow(&mut bench, 30, Some(1.9));
+    assert!(fastest > 0.05, "{fastest}");
+    follow(&mut bench, 30, None);
+    assert_eq!(bench.last_command().twist.linear.x, 0.0);
+    assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+}
+
+/// So many ticks of a follower, with its leader at `leader` (m along the segment) if it speaks; gives the highest speed.
+fn follow(bench: &mut Bench, ticks: u32, leader: Option<f64>) -> f64 {
+    let mut fastest = 0.0_f64;
+    for _ in 0..ticks {
+        bench.running();
+        if let Some(x) = leader {
+            bench.send("/robot2/leader_state", &leader_at(bench, x, 4));
+        }
+        let v = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        fastest = fastest.max(v);
+        bench.seconds += PERIOD;
+    }
+    fastest
+}
+
+#[test]
+fn a_follower_that_hears_nobody_goes_along_the_segment_until_it_does() {
+    let mut bench = follower();
+    follow(&mut bench, 30, Some(1.9));
+    follow(&mut bench, 75, None);
+    assert!(bench.last_command().twist.linear.x > 0.1, "as fast as it may: {:?}", bench.last_command());
+    assert!(bench.says().contains("hears nobody of its queue"), "{}", bench.says());
+    follow(&mut bench, 18, Some(1.9));
+    assert!(!bench.says().contains("hears nobody of its queue"), "{}", bench.says());
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert_eq!(state.hears, ["robot2"]);
+}
+
+#[test]
+fn a_follower_without_a_leader_is_drawn_to_its_goal() {
+    let mut bench = follower();
+    let member = |robot: &str, rank| Member { robot: robot.to_owned(), rank, ..Default::default() };
+    let members = vec![member("robot2", 1), member("robot1", 2)];
+    bench.send("/assignment", &Assignment { epoch: 5, formation_hash: 7, members, ..Default::default() });
+    follow(&mut bench, 30, None);
+    assert!(bench.last_command().twist.linear.x > 0.05, "{}", bench.says());
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert!((state.goal.x - 1.5).abs() < 0.01, "{state:?}");
+}
+
+#[test]
+fn leader_states_beyond_the_radio_s_reach_are_not_heard() {
+    let mut bench = follower();
+    let link = |hears: &[&str]| LinkStatus {
+        up: true,
+        hears: hears.iter().map(|name| (*name).to_owned()).collect(),
+        ..Default::default()
+    };
+    for _ in 0..30 {
+        bench.send("/robot1/link", &link(&["robot3"]));
+        follow(&mut bench, 1, Some(1.9));
+    }
+    assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+    for _ in 0..30 {
+        bench.send("/robot1/link", &link(&["robot2"]));
+        follow(&mut bench, 1, Some(1.9));
+    }
+    assert!(bench.says().contains("driving"), "{}", bench.says());
+    let network = [("team", "[robot1, robot2]"), ("law", "chain"), ("team_link", "network")];
+    let mut bench = Bench::of(make(&network).unwrap());
+    bench.send("/robot1/link", &link(&[]));
+    follow(&mut bench, 1, Some(1.9));
+    let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert_eq!(state.hears, ["robot2"], "on the robots' own hosts what comes is heard");
+}
+
+#[test]
+fn a_second_publisher_waits_until_the_first_is_silent() {
+    let mut bench = follower();
+    follow(&mut bench, 10, Some(1.9));
+    let mut team = bench.team(RobotState::STATUS_TRACKED, 0.0);
+    team.robots[0].x = 0.3;
+    bench.out.take();
+    bench.send_from([9; 16], "/team_state", &team.to_cdr());
+    assert!(bench.out.published::<TwistStamped>(bench.port("/robot1/cmd_vel")).is_empty(), "no tick of its own");
+    assert!(bench.says().contains("another publisher writes this topic"), "{}", bench.says());
+}
+
+#[test]
+fn leader_states_of_another_epoch_or_time_do_not_count() {
+    let refused = |spoil: &dyn Fn(&mut LeaderState), expected: &str| {
+        let mut bench = follower();
+        let mut state = leader_at(&bench, 1.9, 4);
+        spoil(&mut state);
+        bench.send("/robot2/leader_state", &state);
+        let command = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+        assert_eq!(command.twist.linear.x, 0.0, "{expected}");
+        assert!(bench.says().contains(expected), "{}", bench.says());
+    };
+    refused(&|state| state.epoch = 3, "it is of epoch 3, ours is 4");
+    refused(&|state| state.formation_hash = 8, "of another formation");
+    refused(&|state| state.header.stamp = RosTime(0).plus_seconds(105.0).into(), "from the future");
+    refused(&|state| state.point.x = f64::NAN, "not finite");
+}
+
+/// Both hear it, and the robot rests until one of them ends; whoever hears two for another robot says so.
+#[test]
+fn two_controllers_of_one_robot_are_reported() {
+    let mut bench = Bench::new();
+    let tick = |bench: &mut Bench, writers: &[u8], topic: &str| {
+        bench.running();
+        for writer in writers {
+            let mut state = LeaderState::default();
+            state.header.stamp = bench.times().ros.into();
+            bench.send_from([*writer; 16], topic, &state.to_cdr());
+        }
+        let v = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        bench.seconds += 0.033;
+        v
+    };
+    assert!(tick(&mut bench, &[1], "/robot1/leader_state") > 0.0, "what it says itself");
+    assert_eq!(tick(&mut bench, &[1, 2], "/robot1/leader_state"), 0.0);
+    assert!(bench.says().contains("two controllers drive this robot; end one of them"), "{}", bench.says());
+    for _ in 0..12 {
+        tick(&mut bench, &[2], "/robot1/leader_state");
+    }
+    assert!(tick(&mut bench, &[2], "/robot1/leader_state") > 0.0, "the other one ended");
+    assert!(tick(&mut bench, &[3, 4], "/robot2/leader_state") > 0.0);
+    assert!(bench.says().contains("two controllers drive robot2"), "{}", bench.says());
+}

@@ -1,0 +1,81 @@
+//! Laws, gains and trenches: what is refused, and what may change while the controller runs.
+
+use crate::bench::{Bench, LAWS, formation, leader, make, parameters};
+use trench_formation::kinematics::Pose;
+use trench_msgs::msg::{LeaderState, RobotState, Stability};
+
+#[test]
+fn gains_outside_the_stable_zone_are_refused_with_the_equation() {
+    let refused = |overrides| make(overrides).map(drop).unwrap_err();
+    let error = refused(&[("gains.k1", "0.1"), ("gains.k2", "1.0"), ("gains.k3", "9.0")]);
+    assert!(error.contains("gains.k3 = 9"), "{error}");
+    assert!(error.contains("K3 < K1 + 2 c1 K2") && error.contains("4.3.1"), "{error}");
+    assert!(refused(&[("gains.k2", "-1.0")]).contains("K2 > 0"));
+    assert!(make(&[("gains.k3", "50.0"), ("refuse_unstable_gains", "false")]).is_ok());
+}
+
+#[test]
+fn a_refused_change_leaves_the_old_gains_in_force() {
+    let mut bench = Bench::new();
+    let change = parameters(&[("gains.k2", "-3.0")]).unwrap();
+    assert!(bench.core.set_parameters(&change).is_err());
+    bench.running();
+    assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
+}
+
+#[test]
+fn dynamic_laws_outside_the_theory_are_refused_with_their_equation() {
+    let refused = |overrides: &[(&str, &str)]| make(overrides).map(drop).unwrap_err();
+    assert!(refused(&[("law", "chain"), ("damping", "1.0")]).contains("(7.13) with k = 1 < 2"));
+    assert!(refused(&[("law", "goal"), ("damping", "0.0")]).contains("(5.1) needs k > 0"));
+    assert!(refused(&[("law", "chain"), ("zones.radii", "[0.3, 0.2, 0.4, 0.5, 1.0]")]).contains("6.2.2"));
+    assert!(make(&[("law", "chain"), ("damping", "1.0"), ("refuse_unstable_gains", "false")]).is_ok());
+}
+
+#[test]
+fn trenches_may_be_written() {
+    let refused = |shape: &str, formula: &str| {
+        let overrides = [("law", "goal"), ("trench.shape", shape), ("trench.formula", formula)];
+        make(&overrides).map(drop).unwrap_err()
+    };
+    assert!(refused("potential", "2*abs(x").contains("trench.formula"));
+    assert!(refused("potential", "sqrt(abs(x))").contains("infinitely steep at x = 0"));
+    assert!(refused("potential", "2*abs(x) + 3*(1 - cos(x))").contains("Definition 5.2.1"));
+    assert!(refused("slope", "1/x").contains("is not finite at x = 0"));
+    assert!(make(&[("law", "goal"), ("trench.shape", "potential"), ("trench.formula", "0.4*abs(x)")]).is_ok());
+    assert!(make(&[("law", "goal"), ("trench.shape", "slope"), ("trench.formula", "0.3*tanh(4*x)")]).is_ok());
+    let table = |rows: &str| make(&[("law", "chain"), ("trench.shape", "table"), ("trench.table", rows)]).map(drop);
+    assert_eq!(table("[0.0, 0.0, 0.5, 0.4]"), Ok(()));
+    assert!(table("[0.0, 0.0, 0.5]").unwrap_err().contains("odd number"));
+    assert!(table("[0.0, 0.0, 0.5, 0.4, 0.3, 0.4]").unwrap_err().contains("row 3"));
+    assert!(table("[0.0, 0.0, 1.0, 4.0, 1.0, 1.0]").unwrap_err().contains("not regular"));
+}
+
+#[test]
+fn directions_of_attraction_are_directions() {
+    let directed = |direction: &str| make(&[("law", "zoned"), ("zoned.direction", direction)]).map(drop);
+    assert_eq!(directed("[]").and(directed("[0.6, 0.8]")), Ok(()));
+    assert!(directed("[0.0, 0.0]").unwrap_err().contains("is no direction"));
+    assert!(directed("[1.0]").unwrap_err().contains("is no direction"));
+}
+
+/// Every law, one after the other, while the robot drives to its goal; a refused one in between changes nothing.
+#[test]
+fn laws_change_while_the_robot_drives() {
+    let mut bench = Bench::new();
+    formation(&mut bench);
+    bench.pose = Pose::new(0.6, 1.1, 0.0);
+    for law in LAWS {
+        bench.core.set_parameters(&parameters(&[("law", law), ("team", "[robot1, robot2]")]).unwrap()).unwrap();
+        let refused = bench.core.set_parameters(&parameters(&[("law", "chain"), ("damping", "0.5")]).unwrap());
+        assert!(refused.unwrap_err().to_string().contains("k = 0.5 < 2"));
+        for _ in 0..5 {
+            leader(&mut bench);
+            bench.drive(1);
+        }
+        let state: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+        let said: Stability = bench.out.last(bench.port("/robot1/stability")).unwrap();
+        assert_eq!((said.law.as_str(), said.holds), (law, true), "{said:?}");
+        assert!(state.goal_distance > 0.0 && state.limited_by & LeaderState::LIMIT_STALE == 0, "{law}: {state:?}");
+    }
+}

@@ -1,0 +1,9 @@
+//! The controller as its neighbours see it: messages in, messages out.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod bench;
+mod chain;
+mod laws;
+mod remedies;
+mod stability;
+mod ticks;
