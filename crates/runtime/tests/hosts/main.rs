@@ -1,6 +1,7 @@
 //! Nodes on several hosts (network namespaces): over DDS on one bridge, and over Zenoh through a router between two
 //! networks that nothing else crosses. Each message once and in order, the past of latched topics, services, and one
 //! clock for all.
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 #[cfg(test)]
 #[path = "../common/mod.rs"]
