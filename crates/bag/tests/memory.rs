@@ -126,9 +126,9 @@ fn memory_is_bounded_by_the_size_of_the_file() {
 
     let large_type: Vec<u8> = (0..40).flat_map(|id| schema(id, "a/msg/A", &vec![b'#'; 700_000])).collect();
     check("types of 28 MiB in a few kilobytes", &[&zstd_chunk(&large_type)], 1);
-    let many: Vec<u8> = (0..40_000).flat_map(|id| channel(id, 1, &format!("/topic/{id}"), &[])).collect();
+    let channels: Vec<u8> = (0..40_000).flat_map(|id| channel(id, 1, &format!("/topic/{id}"), &[])).collect();
     let one_type = schema(1, "a/msg/A", &vec![b'#'; 700_000]);
-    check("40,000 topics of a large type", &[&zstd_chunk(&[&one_type[..], &many].concat())], 1);
+    check("40,000 topics of a large type", &[&zstd_chunk(&[&one_type[..], &channels].concat())], 1);
     let keys: Vec<u8> = (0..2_000_000).flat_map(|key| [text(&format!("{key:x}")), text("")].concat()).collect();
     check("a topic with two million keys", &[&zstd_chunk(&channel(1, 1, "/value", &keys))], 1);
     check(
