@@ -39,7 +39,7 @@ pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
     let field = Field::random(&mut chance);
     let placed = Placed::new(&segment, Isometry2::identity());
     let team_goal = free_point(&placed, &field);
-    let radii = Radii::new(0.4, 1.0, 3.0, 6.0, 10.0).ok()?;
+    let radii = Radii::new(0.4, 1.0, 7.0, 9.0, 10.0).ok()?;
     let starts = random_starts(&mut chance, count, &field, (&placed, team_goal, &radii))?;
     let Field { obstacles, velocities } = field;
     Some(ChainScenario {
