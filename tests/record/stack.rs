@@ -10,9 +10,9 @@ use trench_bag::BagReader;
 fn write(bag: &Path, count: usize) {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR"));
     let venv = std::env::var_os("TRENCH_VENV").map_or_else(|| repository.join(".venv"), PathBuf::from);
-    let script = repository.join("tests/interop/bag_write_stop.py");
+    let script = repository.join("tests/interop/bag_write_rosbags.py");
     let mut python = Command::new(venv.join("bin/python3"));
-    let output = python.arg(script).arg(bag).arg(count.to_string()).output();
+    let output = python.arg(script).arg(bag).arg(count.to_string()).arg("/emergency_stop").output();
     let output = output.unwrap_or_else(|error| panic!("{}: {error}; run scripts/ros-venv", venv.display()));
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
