@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn short_gaps_are_no_losses() {
         assert!(changes(|tenths| tenths % 5 != 0, 1000).is_empty());
-        assert_eq!(changes(|tenths| tenths < 10 || tenths >= 30, 100), [15, 50]);
+        assert_eq!(changes(|tenths| !(10..30).contains(&tenths), 100), [15, 50]);
     }
 
     #[test]
