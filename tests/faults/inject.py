@@ -3,53 +3,39 @@
 import math
 import os
 import random
+import re
 import socket
-import threading
 import time
-
-import rclpy
-from geometry_msgs.msg import TwistStamped
-from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
-from rclpy.qos import QoSDurabilityPolicy, QoSProfile
-from std_msgs.msg import Bool
-from std_srvs.srv import Trigger
-from trench_msgs.msg import Goal, Goals, RobotState, RunState, TeamState
+from collections.abc import Callable
+from functools import cached_property
 
 # Rate of what is published, Hz.
 RATE = 50.0
 
 
 class Ears:
-    """A node of our own that hears when the run began."""
+    """Knows when the run began, and speaks on the network where a fault asks for it."""
 
-    def __init__(self):
+    def __init__(self, log: Callable[[], str]):
+        self.log, self.t0 = log, None
+
+    @cached_property
+    def node(self):
+        """A node of our own, made when the first fault needs one."""
+        import rclpy
+
         rclpy.init()
-        self.node = Node("faults", enable_rosout=False, start_parameter_services=False)
-        self.t0 = None
-        latched = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-        self.node.create_subscription(RunState, "/run_state", self._heard, latched)
-        self.thread = threading.Thread(target=self._spin, daemon=True)
-        self.thread.start()
-
-    def _spin(self):
-        try:
-            rclpy.spin(self.node)
-        except ExternalShutdownException:
-            pass
-
-    def _heard(self, message: RunState):
-        t0 = message.t0.sec + 1e-9 * message.t0.nanosec
-        if message.state == RunState.RUNNING and t0 > 0.0 and self.t0 is None:
-            self.t0 = t0
+        return rclpy.create_node("faults", enable_rosout=False, start_parameter_services=False)
 
     def wait_for_start(self, timeout: float) -> None:
-        """Until robots move."""
+        """Until leader_assignment says that robots move; the next frame is t0."""
         deadline = time.monotonic() + timeout
         while self.t0 is None:
             if time.monotonic() > deadline:
                 raise TimeoutError("the run did not start")
-            time.sleep(0.01)
+            started = re.search(r"\[(\d+\.\d+)\] \[leader_assignment\]: Start: started", self.log())
+            self.t0 = float(started.group(1)) if started else None
+            time.sleep(0.02)
 
     def wait_until(self, seconds: float) -> None:
         """Until so long after t0."""
@@ -57,8 +43,11 @@ class Ears:
 
     def close(self) -> None:
         """Leaves the network."""
-        rclpy.try_shutdown()
-        self.thread.join(5.0)
+        if "node" in self.__dict__:
+            import rclpy
+
+            self.node.destroy_node()
+            rclpy.try_shutdown()
 
 
 def _publish(ears: Ears, kind, topic: str, make, seconds: float) -> None:
@@ -78,6 +67,7 @@ def _now(ears: Ears):
 
 def foreign_command(ears: Ears, seconds: float) -> None:
     """Somebody else drives robot1, fast."""
+    from geometry_msgs.msg import TwistStamped
 
     def make():
         command = TwistStamped()
@@ -90,6 +80,7 @@ def foreign_command(ears: Ears, seconds: float) -> None:
 
 def nan_team_state(ears: Ears, seconds: float) -> None:
     """Somebody else says where robots are: nowhere."""
+    from trench_msgs.msg import RobotState, TeamState
 
     def make():
         team = TeamState()
@@ -105,6 +96,7 @@ def nan_team_state(ears: Ears, seconds: float) -> None:
 
 def nan_goals(ears: Ears, seconds: float) -> None:
     """Somebody else says where robots go: nowhere."""
+    from trench_msgs.msg import Goal, Goals
 
     def make():
         goals = Goals(epoch=2**63)
@@ -136,6 +128,9 @@ def garbage_udp(ears: Ears, seconds: float) -> None:
 
 def emergency_stop(ears: Ears, seconds: float) -> None:
     """An emergency stop, which is taken back and reset."""
+    import rclpy
+    from std_msgs.msg import Bool
+    from std_srvs.srv import Trigger
     publisher = ears.node.create_publisher(Bool, "/emergency_stop", 10)
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -146,8 +141,8 @@ def emergency_stop(ears: Ears, seconds: float) -> None:
         time.sleep(1.0 / RATE)
     client = ears.node.create_client(Trigger, "/rf_bridge/reset")
     client.wait_for_service(timeout_sec=2.0)
-    client.call_async(Trigger.Request())
-    time.sleep(0.2)
+    answer = client.call_async(Trigger.Request())
+    rclpy.spin_until_future_complete(ears.node, answer, timeout_sec=2.0)
     ears.node.destroy_publisher(publisher)
 
 

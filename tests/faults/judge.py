@@ -108,6 +108,7 @@ class Run:
         self.contacts: list[tuple[float, str]] = []
         self.log_times: list[float] = []
         self.t0 = None
+        self.stopped: float | None = None
         self.bed_faults: list[tuple[float, str]] = []
         for file in sorted(bag.glob("*.mcap")):
             with open(file, "rb") as stream:
@@ -130,6 +131,8 @@ class Run:
             if all(math.isfinite(goal.position.x) for goal in message.goals):
                 goals = {goal.robot: (goal.position.x, goal.position.y) for goal in message.goals}
                 self.goals.add(seconds(message.header.stamp), goals)
+        elif topic == "/run_state" and message.state == 3:
+            self.stopped = self.stopped or at
         elif topic == "/run_state" and message.state == 2 and seconds(message.t0) > 0.0:
             self.t0 = self.t0 or seconds(message.t0)
         elif topic == "/diagnostics":
@@ -159,9 +162,10 @@ class Run:
         return math.hypot(goals[robot][0] - state[0], goals[robot][1] - state[1])
 
     def is_driven(self, robot: str, at: float) -> bool:
-        """Whether it is told to move, or is where it is to be."""
-        command, distance = self.commands[robot].at(at), self.distance(robot, at)
-        return (command is not None and command != (0.0, 0.0)) or (distance is not None and distance < NEAR)
+        """Whether it moves, or is where it is to be."""
+        moves = any(state[2] > STANDS for _, state in self.truth[robot].between(at - 0.5, at))
+        distance = self.distance(robot, at)
+        return moves or (distance is not None and distance < NEAR)
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -175,15 +179,21 @@ def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
         window = bag.bed_window(kind, counts.get(kind, 0))
         counts[kind] = counts.get(kind, 0) + 1
         windows.append((fault, *(window or (0.0, 0.0))))
-    verdicts = [one(bag, run, fault, began, ended, evidence) for fault, began, ended in windows]
+    # A fault is judged until the next one begins.
+    begins = sorted(began for _, began, _ in windows) + [math.inf]
+    verdicts = [
+        one(bag, run, fault, (began, ended, begins[bisect.bisect_right(begins, began)]), evidence)
+        for fault, began, ended in windows
+    ]
     general = whole(bag, run, evidence)
     for verdict in verdicts:
         verdict.problems += general
     return verdicts
 
 
-def one(bag: Run, run: dict, fault: dict, began: float, ended: float, evidence: Evidence) -> Verdict:
-    """A verdict on one fault."""
+def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], evidence: Evidence) -> Verdict:
+    """A verdict on one fault: when it began, was over, and when the next begins."""
+    began, ended, following = window
     verdict = Verdict(fault["name"], run["name"])
     if began == 0.0:
         verdict.problems.append("it never began")
@@ -204,7 +214,7 @@ def one(bag: Run, run: dict, fault: dict, began: float, ended: float, evidence: 
         verdict.stood = standstill(bag, stopped, began, ended)
         if verdict.stood is None or verdict.stood > STANDSTILL:
             verdict.problems.append(f"{', '.join(stopped)} did not stand within {STANDSTILL} s")
-    recover(bag, ended, verdict)
+    recover(bag, ended, min(ended + FORMATION, following), verdict)
     return verdict
 
 
@@ -235,24 +245,31 @@ def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float
     return latest
 
 
-def recover(bag: Run, ended: float, verdict: Verdict) -> None:
-    """When all robots were driven again, and when the formation stood."""
-    steps = [0.05 * step for step in range(int(FORMATION / 0.05))]
+def since_when(holds, ended: float, until: float) -> float | None:
+    """How long after the end something begins to hold until the next fault; none if it does not."""
+    steps = [ended + 0.05 * step for step in range(int((until - ended) / 0.05))]
+    failed = [at for at in steps if not holds(at)]
+    if not steps or (failed and failed[-1] == steps[-1]):
+        return None
+    return failed[-1] + 0.05 - ended if failed else 0.0
+
+
+def recover(bag: Run, ended: float, until: float, verdict: Verdict) -> None:
+    """When all robots were driven again, and when the formation stood, for the rest of the time."""
     robots = sorted(bag.truth)
-    driven = next((step for step in steps if all(bag.is_driven(robot, ended + step) for robot in robots)), None)
-    verdict.recovered = driven
-    if driven is None or driven > RECOVERY:
+    until = min(until, max(series.times[-1] for series in bag.truth.values()), bag.stopped or math.inf)
+    verdict.recovered = since_when(lambda at: all(bag.is_driven(robot, at) for robot in robots), ended, until)
+    if verdict.recovered is None or verdict.recovered > RECOVERY:
         verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
 
     def stands(at: float) -> bool:
         distances = [bag.distance(robot, at) for robot in robots]
         return all(distance is not None and distance < NEAR for distance in distances)
 
-    last = bag.team.times[-1] if bag.team.times else max(series.times[-1] for series in bag.truth.values())
-    verdict.formed = next((step for step in steps if ended + step <= last and stands(ended + step)), None)
+    verdict.formed = since_when(stands, ended, until)
     if verdict.formed is None:
-        far = {robot: bag.distance(robot, min(ended + FORMATION, last)) for robot in robots}
-        verdict.problems.append(f"the formation did not stand within {FORMATION} s: {far}")
+        far = {robot: bag.distance(robot, until - 0.1) for robot in robots}
+        verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 
 def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:

@@ -12,7 +12,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import threading
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -153,7 +152,7 @@ def conduct(run: dict, binaries: Path, seed: int) -> list[judge.Verdict]:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     launched = Launched(run, binaries, folder, seed)
-    ears = inject.Ears()
+    ears = inject.Ears(launched.log)
     windows, memory = [], []
     try:
         ears.wait_for_start(PATIENCE)
@@ -196,7 +195,8 @@ def chosen(runs: list[dict], arguments: argparse.Namespace) -> list[dict]:
     """The runs that the command line asks for."""
     if arguments.sample:
         day = datetime.date.today().toordinal()
-        return [runs[day % len(runs)]]
+        sample = [run for run in runs if run.get("sample")]
+        return [sample[day % len(sample)]]
     if not arguments.names:
         return runs
     picked = []
@@ -238,6 +238,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    # Threads of rclpy must not keep a finished program.
-    threading.excepthook = lambda args: sys.__excepthook__(args.exc_type, args.exc_value, args.exc_traceback)
     main()

@@ -12,8 +12,9 @@ as processes in real time on the simulated test bed, judged by ground truth and 
 - no contact; only the victim ends; commands finite and within limits; memory grows by less than 10 MB; the bag has no gap of a second;
 - **diagnostic**: the one that names the fault, within 0.5 s; *launcher*: the launcher's own report of the process that died;
 - **still**: where control cannot be safe, all robots concerned stand within 0.6 s (0.25 s on old information, then braking) and until the fault is over;
-- **driven**: all robots are driven again within 2 s of its end (the victim lives again, the injection is off);
-- **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end.
+- **driven**: all robots move again, or are where they are to be, within 2 s of its end (the victim lives again, the injection is off);
+- **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the
+  next fault begins.
 
 | fault | run | diagnostic, s | still, s | driven, s | formed, s | verdict | date (UTC) |
 |---|---|---|---|---|---|---|---|
