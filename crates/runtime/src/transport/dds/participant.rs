@@ -8,11 +8,13 @@ use crate::transport::TransportError;
 use crate::transport::network::{
     Gid, GraphWatch, Network, NetworkReader, NetworkWriter, ServiceClient, ServiceServer, TopicName,
 };
+use rustdds::dds::CreateError;
 use rustdds::no_key::{DataWriter, SimpleDataReader};
 use rustdds::{
     DomainParticipant, DomainParticipantBuilder, GUID, Publisher, QosPolicies, QosPolicyBuilder, Subscriber, Topic,
 };
 use rustdds::{RTPSEntity, TopicKind};
+use std::time::{Duration, Instant};
 use trench_core::Qos;
 use trench_msgs::ServiceInfo;
 
@@ -27,7 +29,7 @@ pub(crate) struct Participant {
 impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
-        let fail = |error: rustdds::dds::CreateError| TransportError::Participant { domain, reason: error.to_string() };
+        let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
@@ -56,9 +58,7 @@ impl Participant {
         qos: QosPolicies,
     ) -> Result<DataWriter<RawMessage, RawAdapter>, TransportError> {
         let topic = self.topic(name, &qos)?;
-        let writer = self
-            .publisher
-            .create_datawriter_no_key(&topic, Some(qos))
+        let writer = patiently(|| self.publisher.create_datawriter_no_key(&topic, Some(qos.clone())))
             .map_err(|error| TransportError::endpoint(&name.topic, &error))?;
         self.graph.add(node, Endpoint::Writer(writer.guid()));
         Ok(writer)
@@ -71,9 +71,7 @@ impl Participant {
         qos: QosPolicies,
     ) -> Result<SimpleDataReader<RawMessage, RawAdapter>, TransportError> {
         let topic = self.topic(name, &qos)?;
-        let reader = self
-            .subscriber
-            .create_simple_datareader_no_key(&topic, Some(qos))
+        let reader = patiently(|| self.subscriber.create_simple_datareader_no_key(&topic, Some(qos.clone())))
             .map_err(|error| TransportError::endpoint(&name.topic, &error))?;
         self.graph.add(node, Endpoint::Reader(reader.guid()));
         Ok(reader)
@@ -84,6 +82,26 @@ impl Participant {
             .create_topic(name.topic.clone(), name.type_name.clone(), qos, TopicKind::NoKey)
             .map_err(|error| TransportError::endpoint(&name.topic, &error))
     }
+}
+
+/// How long RustDDS's thread may take to accept an endpoint.
+const ACCEPTANCE: Duration = Duration::from_secs(5);
+
+/// Opens an endpoint. RustDDS tells its thread of it through a channel of limited length and gives up where that is full:
+/// many endpoints at once, on a busy machine, come faster than the thread takes them.
+fn patiently<T>(open: impl Fn() -> Result<T, CreateError>) -> Result<T, CreateError> {
+    let deadline = Instant::now() + ACCEPTANCE;
+    loop {
+        match open() {
+            Err(error) if is_full(&error) && Instant::now() < deadline => std::thread::sleep(Duration::from_millis(2)),
+            done => return done,
+        }
+    }
+}
+
+/// The only thing by which it can be told from a thread that has ended.
+fn is_full(error: &CreateError) -> bool {
+    error.to_string().contains("full channel")
 }
 
 impl Network for Participant {
