@@ -13,6 +13,8 @@ pub struct Overhead {
     pub name: Option<String>,
     /// Lens and mount.
     pub camera: Camera,
+    /// What the lens file calls it.
+    pub lens_name: String,
 }
 
 impl Overhead {
@@ -29,7 +31,7 @@ impl Overhead {
         let mounts = Mount::parse_all(mount_file, mounts)?;
         let camera = |(name, mount): (Option<String>, Mount)| {
             let path = lens_file.replace(PLACEHOLDER, name.as_deref().unwrap_or("overhead"));
-            let lens = CameraInfo::parse(&path, &read(&path)?)?.lens;
+            let CameraInfo { name: lens_name, lens } = CameraInfo::parse(&path, &read(&path)?)?;
             // Both files are checked: what is left to go wrong is not the reader's business.
             let camera = Camera::new(lens, mount).map_err(|error| ConfigError {
                 origin: trench_config::Origin::new(path.as_str(), 1),
@@ -38,7 +40,7 @@ impl Overhead {
                 problem: error.to_string(),
                 remedy: "calibrate the camera again".to_owned(),
             })?;
-            Ok(Self { name, camera })
+            Ok(Self { name, camera, lens_name })
         };
         mounts.into_iter().map(camera).collect()
     }

@@ -5,7 +5,7 @@ use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
 use trench_optics::{Camera, Overhead, Pad, Pose2};
 use trench_radio::{Key, MAX_ROBOTS};
-use trench_sim::camera::{Appearance, Background};
+use trench_sim::camera::{Appearance, BALANCED_FOR, Background};
 use trench_sim::{BedSetup, Body, Faults, Field, Laser, Motor, Obstacle, Random, Shutter, scattered};
 
 /// What the test bed is told. All of it is fixed while it runs.
@@ -64,6 +64,8 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::bool("render", true, "publish images; false: the discs that a detector would find"),
         P::string("image.background", "plain", "plain, noisy or wood"),
         P::double("image.noise", 4.0, "of 255, standard deviation of each channel of each pixel").range(0.0, 64.0),
+        P::double("image.brightness", 1.0, "the light where it is brightest, of nominal").range(0.05, 10.0),
+        P::double("image.temperature", BALANCED_FOR, "K, colour temperature of the light").range(1500.0, 20_000.0),
         P::double("image.gradient", 0.3, "how much darker the darkest corner is").range(0.0, 1.0),
         P::double(
             "detections.noise",
@@ -251,7 +253,7 @@ fn poses(
 
 fn cameras(parameters: &Parameters, files: &dyn Files) -> Result<Vec<Overhead>, ConfigError> {
     match [parameters.str("camera.info_file")?, parameters.str("camera.mount_file")?] {
-        ["", ""] => Ok(vec![Overhead { name: None, camera: Camera::nominal() }]),
+        ["", ""] => Ok(vec![Overhead { name: None, camera: Camera::nominal(), lens_name: "overhead".to_owned() }]),
         ["", _] => Err(parameters.error("camera.info_file", "is missing", "name the lens of the camera on this mount")),
         [_, ""] => Err(parameters.error("camera.mount_file", "is missing", "say where the camera of this lens hangs")),
         [lens, mount] => {
@@ -272,6 +274,8 @@ fn appearance(parameters: &Parameters) -> Result<Appearance, ConfigError> {
     Ok(Appearance {
         background,
         noise: parameters.f64("image.noise")?,
+        brightness: parameters.f64("image.brightness")?,
+        temperature: parameters.f64("image.temperature")?,
         gradient: parameters.f64("image.gradient")?,
         seed: parameters.i64("seed")? as u64,
         ..plain

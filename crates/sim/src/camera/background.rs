@@ -15,7 +15,7 @@ pub(super) fn paint(appearance: &Appearance, light: Light, width: usize, image: 
                 Background::Noisy(colour, contrast) => (colour, 1.0 + contrast * (2.0 * blotches.at(u, v) - 1.0)),
                 Background::Wood => ([172, 134, 98], board(u, v, appearance.seed) * (0.82 + 0.3 * grain.at(u, v))),
             };
-            blend(pixel, colour.map(|channel| f32::from(channel) * factor * light.at(u, v)), 1.0);
+            blend(pixel, light.on(colour.map(|channel| f32::from(channel) * factor), u, v), 1.0);
         }
     }
 }

@@ -6,13 +6,15 @@
 
 mod appearance;
 mod background;
+mod board;
 mod noise;
 mod obstacle;
 mod renderer;
 mod robot;
 mod shape;
 
-pub use appearance::{Appearance, Background, Colour};
+pub use appearance::{Appearance, BALANCED_FOR, Background, Colour};
+pub use board::{HeldBoard, render_board};
 pub use noise::Noise;
 pub use obstacle::Obstacle;
 pub use renderer::{RenderError, Renderer, Scene};

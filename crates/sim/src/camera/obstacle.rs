@@ -39,7 +39,7 @@ pub(super) fn draw(
             if alpha > 0.0
                 && let Some(pixel) = image.get_mut(3 * (v * width + u)..3 * (v * width + u) + 3)
             {
-                blend(pixel, appearance.obstacle.map(|channel| f32::from(channel) * light.at(u, v)), alpha);
+                blend(pixel, light.on(appearance.obstacle.map(f32::from), u, v), alpha);
             }
         }
     }

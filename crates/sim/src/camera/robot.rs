@@ -53,7 +53,7 @@ pub(super) fn draw(
             if opacity > 0.0
                 && let Some(pixel) = image.get_mut(3 * (v * width + u)..3 * (v * width + u) + 3)
             {
-                blend(pixel, sum.map(|channel| channel / opacity * light.at(u, v)), opacity);
+                blend(pixel, light.on(sum.map(|channel| channel / opacity), u, v), opacity);
             }
         }
     }
