@@ -1,12 +1,14 @@
 //! The subcommands.
 
 mod bag;
+mod calibrate;
 mod check;
 mod launch;
 mod plot;
 mod rounded;
 mod router;
 mod sim;
+mod ssl;
 mod stop;
 mod view;
 
@@ -20,11 +22,13 @@ use std::process::ExitCode;
 #[command(name = "trench", version)]
 pub(crate) enum Command {
     Bag(bag::Arguments),
+    Calibrate(calibrate::Arguments),
     Check(check::Arguments),
     Launch(launch::Arguments),
     Plot(plot::Arguments),
     Router(router::Arguments),
     Sim(sim::Arguments),
+    Ssl(ssl::Arguments),
     Stop(stop::Arguments),
     View(view::Arguments),
 }
@@ -34,11 +38,13 @@ impl Command {
     pub(crate) fn run(self) -> ExitCode {
         match self {
             Self::Bag(arguments) => bag::run(&arguments),
+            Self::Calibrate(arguments) => calibrate::run(&arguments),
             Self::Check(arguments) => check::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
             Self::Router(arguments) => router::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
+            Self::Ssl(arguments) => ssl::run(&arguments),
             Self::Stop(arguments) => stop::run(&arguments),
             Self::View(arguments) => view::run(&arguments),
         }
