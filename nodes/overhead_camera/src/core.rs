@@ -3,7 +3,7 @@
 use crate::frame::Frame;
 use crate::info::camera_info;
 use crate::report::{PERIOD, Report};
-use crate::settings::Settings;
+use crate::settings::{Settings, controls};
 use crate::source::{FrameSource, SourceError, Taken};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
@@ -139,8 +139,9 @@ impl NodeCore for OverheadCamera {
         Some(look.map_or(self.next_report, |look| look.min(self.next_report)))
     }
 
-    fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {
-        // All of them say what is opened at the start.
-        Ok(())
+    fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        // All others say what is opened at the start.
+        let refused = |problem| parameters.error("controls", problem, "see `v4l2-ctl --list-ctrls` for what it takes");
+        self.source.control(controls(parameters)?).map_err(refused)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::core::OverheadCamera;
 use crate::frame::Encoding;
-use crate::source::{BagSource, DeviceSource, FolderSource, FrameSource, PixelFormat};
+use crate::source::{BagSource, Controls, DeviceSource, FolderSource, FrameSource, PixelFormat};
 use std::path::Path;
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription, StartError};
@@ -53,12 +53,31 @@ fn descriptors() -> Vec<P> {
         P::integer("width", 768, "v4l2: pixels a row, where there is no lens file").range(16.0, 8192.0),
         P::integer("height", 576, "v4l2: rows, where there is no lens file").range(16.0, 8192.0),
     ];
-    all.into_iter().map(P::read_only).collect()
+    let controls = vec![
+        P::double("controls.exposure", -1.0, "v4l2: s, exposure; 0: automatic; -1: as the camera is").range(-1.0, 1.0),
+        P::integer("controls.gain", -1, "v4l2: gain in the driver's units; -1: as the camera is").range(-1.0, 65_535.0),
+        P::integer("controls.white_balance", -1, "v4l2: K, of the light; 0: automatic; -1: as the camera is")
+            .range(-1.0, 20_000.0),
+    ];
+    all.into_iter().map(P::read_only).chain(controls).collect()
+}
+
+/// What the camera is told; numbers below zero leave it as it is.
+pub(crate) fn controls(parameters: &Parameters) -> Result<Controls, ConfigError> {
+    let integer = |key: &str| parameters.i64(key).map(|value| i32::try_from(value).ok().filter(|value| *value >= 0));
+    Ok(Controls {
+        exposure: Some(parameters.f64("controls.exposure")?).filter(|seconds| *seconds >= 0.0),
+        gain: integer("controls.gain")?,
+        white_balance: integer("controls.white_balance")?,
+    })
 }
 
 fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let lens = lens(parameters, files)?;
-    let source = source(parameters, lens.as_ref())?;
+    let mut source = source(parameters, lens.as_ref())?;
+    // Nothing is open yet: what the camera says of it comes when it is.
+    let refused = |problem| parameters.error("controls", problem, "leave it at -1");
+    source.control(controls(parameters)?).map_err(refused)?;
     let settings = Settings {
         lens,
         frame_id: parameters.str("frame_id")?.to_owned(),

@@ -4,6 +4,7 @@
 //! shortly before it is expected, so that the moment is known to that; how long before the middle of the exposure was is
 //! a constant of the camera (`exposure_delay`). A frame whose moment is not known is dropped.
 
+use super::controls::Controls;
 use super::decode::{self, decode};
 use super::{FrameSource, SourceError, Taken};
 use crate::frame::{Encoding, Frame};
@@ -51,6 +52,7 @@ pub struct DeviceSource {
     rate: f64,
     format: PixelFormat,
     exposure_delay: f64,
+    controls: Controls,
     open: Option<Open>,
     next_look: Steady,
 }
@@ -65,7 +67,8 @@ impl DeviceSource {
     /// The camera at `path`: frames of `size` (width, height), `rate` of them a second.
     #[must_use]
     pub fn new(path: &str, size: [u32; 2], rate: f64, format: PixelFormat, exposure_delay: f64) -> Self {
-        Self { path: path.to_owned(), size, rate, format, exposure_delay, open: None, next_look: Steady(0) }
+        let controls = Controls::default();
+        Self { path: path.to_owned(), size, rate, format, exposure_delay, controls, open: None, next_look: Steady(0) }
     }
 
     fn open(&self, now: Steady) -> io::Result<Open> {
@@ -81,6 +84,7 @@ impl DeviceSource {
                 self.format.code()
             )));
         }
+        self.controls.apply(&self.path).map_err(io::Error::other)?;
         let step = given.bytes_per_line();
         let asked = Fract::new(1000, (1000.0 * self.rate) as u32);
         // A driver that has one rate only refuses to be asked.
@@ -198,6 +202,14 @@ impl FrameSource for DeviceSource {
             self.next_look = now.steady.plus_seconds(RETRY);
             Err(SourceError::Away(format!("{} broke: {error}", self.path)))
         })
+    }
+
+    fn control(&mut self, controls: Controls) -> Result<(), String> {
+        if self.open.is_some() {
+            controls.apply(&self.path)?;
+        }
+        self.controls = controls;
+        Ok(())
     }
 
     fn next_look(&self) -> Option<Steady> {

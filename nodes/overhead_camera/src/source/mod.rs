@@ -1,6 +1,7 @@
 //! Where frames come from: the only part of the node that touches files and devices.
 
 mod bag;
+mod controls;
 mod decode;
 mod device;
 mod folder;
@@ -11,6 +12,7 @@ use crate::frame::Frame;
 use trench_core::{Steady, Times};
 
 pub use bag::BagSource;
+pub use controls::Controls;
 pub use device::{DeviceSource, PixelFormat};
 pub use folder::FolderSource;
 
@@ -49,6 +51,14 @@ pub trait FrameSource: Send {
     /// # Errors
     /// When the frame or the whole source is unusable. In either case the source goes on with the next call.
     fn take(&mut self, now: Times, give: &mut dyn FnMut(Frame<'_>)) -> Result<Taken, SourceError>;
+
+    /// Sets exposure, gain and white balance, where there is a camera to be told.
+    ///
+    /// # Errors
+    /// With the reason, when the camera refuses.
+    fn control(&mut self, _: Controls) -> Result<(), String> {
+        Ok(())
+    }
 
     /// When to look again; nothing after the end.
     fn next_look(&self) -> Option<Steady>;
