@@ -52,8 +52,10 @@ impl Board {
     /// A drawing at true scale.
     #[must_use]
     pub fn svg(&self) -> String {
-        let [width, height] = self.size().map(|side| 1e3 * side);
-        let (square, border) = (1e3 * self.square, 1e3 * BORDER * self.square);
+        // To a micrometre: no digits that a printer would not know what to do with.
+        let millimetres = |metres: f64| (1e6 * metres).round() / 1e3;
+        let [width, height] = self.size().map(millimetres);
+        let (square, border) = (millimetres(self.square), millimetres(BORDER * self.square));
         let mut text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} \
              {height}\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n"

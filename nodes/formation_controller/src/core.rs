@@ -1,6 +1,6 @@
 //! The node core: events in, ticks, messages out.
 
-use crate::inputs::Hulls;
+use crate::inputs::{Heard, Hulls};
 use crate::monitor::Violation;
 use crate::ports::{
     APPARENT_OBSTACLES, ASSIGNMENT, CMD_VEL, DIAGNOSTICS, EMERGENCY_STOP, FORMATION, GOALS, LEADER_STATE, LINK,
@@ -22,9 +22,9 @@ use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, RunState, TeamState,
+    ApparentObstacleArray, Assignment, Formation, Goals, Identify, LeaderState, LinkStatus, RunState, TeamState,
 };
-use trench_msgs::std_msgs::{Bool, Header};
+use trench_msgs::std_msgs::{Bool, Float64, Header};
 
 /// Between two words of the monitor where nothing changes, s: a little less than a tenth.
 const STABILITY_PERIOD: f64 = 0.095;
@@ -140,13 +140,16 @@ impl FormationController {
                 }
             }
             OWN => inputs.voices.hear(&self.tick.settings.robot, source.gid, at.steady),
-            _ => {
-                let state = LeaderState::decode(cdr)?;
-                let carried = |name: &&String| self.tick.team_link.carries(at.steady, name);
-                if let Some(name) = self.others.get(port - OTHERS).filter(carried) {
-                    inputs.take_other(at, name, state)?;
+            _ => match self.others.get(port - OTHERS) {
+                Some(name) => {
+                    let state = LeaderState::decode(cdr)?;
+                    if self.tick.team_link.carries(at.steady, name) {
+                        inputs.take_other(at, name, state)?;
+                    }
                 }
-            }
+                None if port > OTHERS + self.others.len() => inputs.loop_delay = Some(Float64::decode(cdr)?.data),
+                None => inputs.identify = Some(Heard { at: at.steady, message: Identify::decode(cdr)? }),
+            },
         }
         Ok(urgent)
     }

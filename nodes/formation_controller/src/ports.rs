@@ -5,9 +5,10 @@ use trench_core::{Advertise, Interface, Local, Qos, Subscribe};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goals, LeaderState, LinkStatus, RunState, Stability, TeamState,
+    ApparentObstacleArray, Assignment, Formation, Goals, Identify, LeaderState, LinkStatus, RunState, Stability,
+    TeamState,
 };
-use trench_msgs::std_msgs::Bool;
+use trench_msgs::std_msgs::{Bool, Float64};
 use trench_msgs::visualization_msgs::MarkerArray;
 
 pub(crate) const TEAM_STATE: usize = 0;
@@ -20,7 +21,7 @@ pub(crate) const EMERGENCY_STOP: usize = 6;
 pub(crate) const LINK: usize = 7;
 /// What this robot says of itself: whoever else says it is a second controller.
 pub(crate) const OWN: usize = 8;
-/// Leader states of the others follow from here on.
+/// Leader states of the others follow from here on, then /identify and /loop_delay.
 pub(crate) const OTHERS: usize = 9;
 
 pub(crate) const CMD_VEL: usize = 0;
@@ -53,6 +54,8 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
     let robot = &settings.robot;
     subscriptions.push(leader_state(robot));
     subscriptions.extend(others.iter().map(leader_state));
+    subscriptions.push(Subscribe::to::<Identify>("/identify", Qos::RELIABLE).without_waking());
+    subscriptions.push(Subscribe::to::<Float64>("/loop_delay", Qos::LATCHED).without_waking());
     let command = format!("/{robot}/cmd_vel");
     let command = if settings.stamped {
         Advertise::of::<TwistStamped>(command, Qos::RELIABLE, SMALL)

@@ -10,7 +10,7 @@ use trench_msgs::msg::{LeaderState, RobotState};
 pub(crate) const DEVIATION: (f64, f64, f64) = (0.08, 2.5, 0.3);
 
 /// A stamp may be this far ahead of our clock, s: more is a pose from the future, which nobody has.
-const CLOCK_ERROR: f64 = 0.005;
+pub(crate) const CLOCK_ERROR: f64 = 0.005;
 
 impl Tick {
     /// The robot's state, if it is one to drive by.

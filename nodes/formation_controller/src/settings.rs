@@ -26,6 +26,7 @@ pub(crate) struct Settings {
     pub(crate) max_wheel_speed: f64,
     pub(crate) ramp: Ramp,
     pub(crate) command_delay: f64,
+    pub(crate) use_measured_delay: bool,
     pub(crate) pose_age_limit: f64,
     pub(crate) information_age_limit: f64,
     pub(crate) goal_age_limit: f64,
@@ -77,6 +78,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             .range(0.0, 10.0),
         P::double("wheels.acceleration", 0.45, "m/s^2, a wheel's largest acceleration above it").range(0.01, 100.0),
         P::double("delay.command", 0.012, "s, from sending a command to the wheels obeying it").range(0.0, 1.0),
+        P::bool(
+            "delay.use_measured",
+            true,
+            "take the delay of the whole loop from /loop_delay, once the localizer knows it",
+        ),
         P::double("age.pose", 0.12, "s, the oldest pose that may drive the robot").range(0.001, 10.0),
         P::double("age.information", 0.25, "s, since the robot was seen last: it is carried forward no longer")
             .range(0.001, 10.0),
@@ -143,6 +149,7 @@ impl Settings {
             max_wheel_speed: double("wheels.max_speed")?,
             ramp: Ramp { pull_in_speed: double("wheels.pull_in_speed")?, acceleration: double("wheels.acceleration")? },
             command_delay: double("delay.command")?,
+            use_measured_delay: parameters.bool("delay.use_measured")?,
             pose_age_limit: double("age.pose")?,
             information_age_limit: double("age.information")?,
             goal_age_limit: double("age.goal")?,

@@ -20,6 +20,9 @@ use trench_formation::zoning::Zone;
 use trench_msgs::msg::{Goal, RobotState, RunState};
 use trench_msgs::visualization_msgs::MarkerArray;
 
+/// A command that takes longer to the wheels than this was measured wrongly, s.
+const LONGEST_COMMAND: f64 = 0.1;
+
 /// What a law wants, and what it says of itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wanted {
@@ -132,8 +135,8 @@ impl Tick {
 
     /// The command of this moment.
     pub(crate) fn run(&mut self, at: Times) -> Command {
-        let acts = at.ros.plus_seconds(self.settings.command_delay);
         let mut command = self.rest(at);
+        let acts = at.ros.plus_seconds(self.command_delay(at, command.exposure));
         match self.drive(at, acts, &mut command) {
             Ok(()) => {}
             Err(hold) => {
@@ -141,7 +144,9 @@ impl Tick {
                 if !matches!(hold, Hold::NoLeader(_)) {
                     self.team_link.rest();
                 }
-                (command.twist, command.hold) = (Twist::ZERO, Some(hold));
+                let turn = if matches!(hold, Hold::NotSeen(_)) { self.identifying(at) } else { None };
+                command.twist = turn.map_or(Twist::ZERO, |turn| self.followable(turn, acts, &mut command));
+                command.hold = Some(hold);
                 (self.holding, self.reference, self.news) = (false, None, None);
                 self.monitor.restart();
                 if let Some(agent) = &mut self.agent {
@@ -152,6 +157,15 @@ impl Tick {
         self.last = Some((acts, self.settings.axle.wheels(command.twist)));
         self.predictor.sent(acts, command.twist);
         command
+    }
+
+    /// From now to the wheels obeying, s: what the localizer has measured from the exposure on, or what the settings say.
+    fn command_delay(&self, at: Times, exposure: RosTime) -> f64 {
+        let measured = self.inputs.loop_delay.filter(|delay| self.settings.use_measured_delay && delay.is_finite());
+        match measured.map(|delay| delay - at.ros.seconds_since(exposure)) {
+            Some(left) if (0.0..LONGEST_COMMAND).contains(&left) => left,
+            _ => self.settings.command_delay,
+        }
     }
 
     /// A command to rest, with what is known of the robot.

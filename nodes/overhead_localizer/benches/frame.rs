@@ -89,7 +89,7 @@ fn run(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
     });
 
     let expectation = Expectation::new(&camera, &Pad::NOMINAL).ok_or("the camera sees no pad")?;
-    let detector = Detector::new(&ColourLimits::default(), expectation);
+    let mut detector = Detector::new(&ColourLimits::default(), expectation);
     let mut room = Vec::new();
     let mut discs = Vec::new();
     let mut turn = images.iter().cycle();

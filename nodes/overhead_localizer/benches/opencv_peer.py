@@ -1,16 +1,18 @@
 """Localizer against OpenCV on the same frames, in one run, each on one thread.
 
     python3 -m venv VENV && VENV/bin/pip install opencv-python-headless numpy
-    VENV/bin/python nodes/overhead_localizer/benches/opencv_peer.py
+    VENV/bin/python nodes/overhead_localizer/benches/opencv_peer.py [SCALE [ROBOTS]]
 
-Builds and runs `examples/detect_frames` (release), which renders the frames, finds the discs and leaves frames and truth
-in a temporary folder; then finds the same discs by inRange + findContours + moments, the fastest way OpenCV has.
+SCALE 2.5 stands for 1920 x 1080 pixels. Builds and runs `examples/detect_frames` (release), which renders the frames,
+finds the discs and leaves frames and truth in a temporary folder; then finds the same discs by inRange + findContours +
+moments, the fastest way OpenCV has.
 """
 
 import csv
 import json
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -21,7 +23,10 @@ import numpy as np
 PASSES = 20
 # Tuned for equal recall on these frames: light from 70 % to 100 %, noise 4/255. Channels are R, G, B.
 RANGES = {"Yellow": ((120, 105, 0), (255, 255, 80)), "Blue": ((0, 25, 110), (70, 110, 255))}
-SMALLEST, LARGEST = 200.0, 480.0  # pixel^2, of a disc's contour
+SCALE = float(sys.argv[1]) if len(sys.argv) > 1 else 1.0
+ROBOTS = sys.argv[2] if len(sys.argv) > 2 else "6"
+WIDTH, HEIGHT = (1920, 1080) if SCALE > 1.5 else (768, 576)
+SMALLEST, LARGEST = 200.0 * SCALE**2, 480.0 * SCALE**2  # pixel^2, of a disc's contour
 
 
 def detect(frame):
@@ -40,10 +45,11 @@ def detect(frame):
 def main():
     cv2.setNumThreads(1)
     root = Path(__file__).resolve().parents[3]
-    build = ["cargo", "run", "--quiet", "--release", "-p", "overhead_localizer", "--example", "detect_frames"]
+    build = ["cargo", "run", "--quiet", "--release", "-p", "overhead_localizer", "--no-default-features"]
+    build += ["--example", "detect_frames", "--"]
     with tempfile.TemporaryDirectory() as folder:
-        ours = json.loads(subprocess.check_output([*build, folder], cwd=root))
-        frames = np.fromfile(Path(folder) / "frames.rgb", dtype=np.uint8).reshape(-1, 576, 768, 3)
+        ours = json.loads(subprocess.check_output([*build, folder, str(SCALE), ROBOTS], cwd=root))
+        frames = np.fromfile(Path(folder) / "frames.rgb", dtype=np.uint8).reshape(-1, HEIGHT, WIDTH, 3)
         truth = [[] for _ in frames]
         with open(Path(folder) / "truth.csv", newline="") as file:
             for row in csv.DictReader(file):

@@ -1,8 +1,8 @@
 //! Renders frames into a folder, finds their discs, and writes what it took as JSON: one half of
 //! `benches/opencv_peer.py`, which measures its peer on the same frames.
 //!
-//! `detect_frames FOLDER` writes `frames.rgb` (768 x 576 rgb8, one after the other) and `truth.csv` (frame, colour, u, v)
-//! there and prints `{"frames": .., "found": .., "expected": .., "rms_px": .., "median_us": .., "p99_us": ..}`.
+//! `detect_frames FOLDER [SCALE [ROBOTS]]` writes `frames.rgb` (rgb8, one after the other; 768 x 576, or 1920 x 1080 with the
+//! scale 2.5) and `truth.csv` (frame, colour, u, v) there and prints `{"frames": .., "found": .., "expected": .., "rms_px": .., "median_us": .., "p99_us": ..}`.
 
 use overhead_localizer::vision::{Colour, ColourLimits, Detector, Expectation, Frame};
 use std::error::Error;
@@ -11,24 +11,29 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
-use trench_optics::{Camera, CameraInfo, Mount, Pad, Pixel, Pose2};
+use trench_optics::{Camera, CameraInfo, Lens, Mount, Pad, Pixel, Pose2};
 use trench_sim::camera::{Appearance, Background, Renderer, Scene};
 
-const FRAMES: u32 = 100;
 const PASSES: usize = 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let folder = std::env::args().nth(1).ok_or("usage: detect_frames FOLDER")?;
+    let folder = std::env::args().nth(1).ok_or("usage: detect_frames FOLDER [SCALE [ROBOTS]]")?;
+    let scale: f64 = std::env::args().nth(2).map_or(Ok(1.0), |text| text.parse())?;
+    let robots_seen: u32 = std::env::args().nth(3).map_or(Ok(6), |text| text.parse())?;
+    // Large frames take six times the room.
+    let frame_count: u32 = if scale > 1.5 { 20 } else { 100 };
     let lens = CameraInfo::parse("overhead.yaml", include_str!("../../../config/cameras/overhead.yaml"))?.lens;
+    let lens = scaled(lens, scale);
+    let [width, height] = [lens.width as usize, lens.height as usize];
     let camera = Camera::new(lens, Mount::nominal())?;
     let background = Background::Noisy([140, 140, 135], 0.3);
     let renderer = Renderer::new(camera.clone(), Pad::NOMINAL, Appearance { background, ..Appearance::default() });
 
-    let mut frames = vec![0_u8; FRAMES as usize * renderer.frame_len()];
+    let mut frames = vec![0_u8; frame_count as usize * renderer.frame_len()];
     let mut truth = String::from("frame,colour,u,v\n");
     let mut expected = Vec::new();
-    for (index, image) in (0..FRAMES).zip(frames.chunks_exact_mut(renderer.frame_len())) {
-        let robots = poses(index);
+    for (index, image) in (0..frame_count).zip(frames.chunks_exact_mut(renderer.frame_len())) {
+        let robots = poses(index, robots_seen);
         renderer.render(Scene { robots: &robots, obstacles: &[] }, index.into(), image)?;
         let discs = discs(&camera, &robots);
         for (colour, pixel) in &discs {
@@ -40,14 +45,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     File::create(Path::new(&folder).join("truth.csv"))?.write_all(truth.as_bytes())?;
 
     let expectation = Expectation::new(&camera, &Pad::NOMINAL).ok_or("the camera sees no pad")?;
-    let detector = Detector::new(&ColourLimits::default(), expectation);
+    let mut detector = Detector::new(&ColourLimits::default(), expectation);
     let mut room = Vec::new();
     let (mut found, mut microseconds) = (Vec::new(), Vec::new());
     let (mut matched, mut surplus, mut sum2) = (0_usize, 0_usize, 0.0_f64);
     for pass in 0..PASSES {
         for (image, expected) in frames.chunks_exact(renderer.frame_len()).zip(&expected) {
             let start = Instant::now();
-            let frame = Frame::new([768, 576], "rgb8", [768, 576], 2304, image, &mut room)?;
+            let frame = Frame::new([width, height], "rgb8", [width, height], 3 * width, image, &mut room)?;
             detector.detect(frame, &mut found);
             microseconds.push(start.elapsed().as_secs_f64() * 1e6);
             if pass > 0 {
@@ -68,9 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     microseconds.sort_by(f64::total_cmp);
     let quantile = |fraction: f64| microseconds[(fraction * (microseconds.len() - 1) as f64) as usize];
     println!(
-        "{{\"frames\": {FRAMES}, \"found\": {matched}, \"expected\": {}, \"surplus\": {surplus}, \"rms_px\": {:.4}, \
+        "{{\"frames\": {frame_count}, \"found\": {matched}, \"expected\": {}, \"surplus\": {surplus}, \"rms_px\": {:.4}, \
          \"median_us\": {:.1}, \"p99_us\": {:.1}}}",
-        12 * FRAMES,
+        2 * robots_seen * frame_count,
         (sum2 / matched as f64).sqrt(),
         quantile(0.5),
         quantile(0.99)
@@ -78,13 +83,27 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Six robots on their way over the field, apart from each other.
-fn poses(index: u32) -> Vec<Vec<Pose2>> {
-    (0..6_u32)
+/// The same view in more pixels; 1920 x 1080 of 2.5 times as many, which cuts it above and below.
+fn scaled(lens: Lens, scale: f64) -> Lens {
+    let width = (scale * f64::from(lens.width)) as u32;
+    let height = if scale > 1.5 { width * 9 / 16 } else { (scale * f64::from(lens.height)) as u32 };
+    let middle = |size: u32| 0.5 * f64::from(size) - 0.5;
+    let off = [lens.cx - middle(lens.width), lens.cy - middle(lens.height)].map(|off| scale * off);
+    let (cx, cy) = (middle(width) + off[0], middle(height) + off[1]);
+    Lens { width, height, fx: scale * lens.fx, fy: scale * lens.fy, cx, cy, ..lens }
+}
+
+/// Robots on their way over the part of the field that both cameras see, apart from each other.
+fn poses(index: u32, robots: u32) -> Vec<Vec<Pose2>> {
+    let columns = if robots > 6 { 5 } else { 3 };
+    let rows = robots.div_ceil(columns);
+    let cell = [2.16 / f64::from(columns), 1.08 / f64::from(rows)];
+    (0..robots)
         .map(|robot| {
             let step = f64::from(index) + 0.37 * f64::from(robot);
-            let x = 0.16 + 0.72 * f64::from(robot % 3) + 0.6 * (0.618_034 * step).fract();
-            let y = 0.16 + 0.76 * f64::from(robot / 3) + 0.6 * (0.414_214 * step).fract();
+            let within = |cell: f64, part: f64| 0.09 + (cell - 0.18).max(0.0) * part.fract();
+            let x = 0.16 + cell[0] * f64::from(robot % columns) + within(cell[0], 0.618_034 * step);
+            let y = 0.375 + cell[1] * f64::from(robot / columns) + within(cell[1], 0.414_214 * step);
             vec![Pose2 { x, y, theta: 2.399_963 * step }]
         })
         .collect()

@@ -5,10 +5,10 @@ use crate::gather::{Gather, Look};
 use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
 use crate::report::{PERIOD, Report};
-use crate::settings::{Settings, descriptors};
+use crate::settings::{Input, Settings, descriptors};
 use crate::stream::Stream;
 use crate::track::{MapDisc, Tracker};
-use crate::{markers, messages};
+use crate::{markers, messages, naming, pads};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Durability, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos,
@@ -16,14 +16,15 @@ use trench_core::{
 };
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::TeamState;
+use trench_msgs::msg::{Identify, NameRobots, TeamState};
 use trench_msgs::nav_msgs::Odometry;
-use trench_msgs::std_srvs::{Trigger, TriggerResponse};
+use trench_msgs::std_msgs::Float64;
+use trench_msgs::std_srvs::Trigger;
 use trench_msgs::tf2_msgs::TFMessage;
 use trench_msgs::visualization_msgs::MarkerArray;
 use trench_msgs::{Encode, Message, TypeInfo, service_info};
 
-/// Ports of publications; `<r>/odom` follows, one a robot.
+/// Ports of publications; `<r>/odom` follows, one a robot, /identify and /loop_delay.
 const TEAM_STATE: usize = 0;
 const TF: usize = 1;
 const DIAGNOSTICS: usize = 2;
@@ -61,6 +62,8 @@ pub struct OverheadLocalizer {
     next_look: Option<Steady>,
     last_picture: Option<Steady>,
     sightings: Vec<Sighting>,
+    /// The delay that was published last, s.
+    delay: Option<f64>,
 }
 
 impl OverheadLocalizer {
@@ -86,11 +89,15 @@ impl OverheadLocalizer {
             next_look: None,
             last_picture: None,
             sightings: Vec::new(),
+            delay: None,
             settings,
         })
     }
 
     fn message(&mut self, at: Times, camera: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        if self.settings.input == Input::Pads {
+            return self.pads(at, source, cdr, sink);
+        }
         let Self { intakes, stream, gather, sightings, .. } = self;
         let Some(intake) = intakes.get_mut(camera) else { return };
         let taken = match gather {
@@ -129,15 +136,44 @@ impl OverheadLocalizer {
         }
     }
 
+    /// Pads of another vision system.
+    fn pads(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        match pads::read(cdr, &self.settings.pad_ids) {
+            Ok((stamp, pads)) => {
+                if let Some(interval) = self.stream.take(source, RosTime::from(&stamp)) {
+                    self.tracker.step_pads(interval, &pads);
+                    self.told(at, stamp, source.sequence, pads.len(), sink);
+                }
+            }
+            Err(reason) => self.report.reject(reason, sink),
+        }
+    }
+
     fn step(&mut self, at: Times, stamp: Time, interval: f64, number: u64, discs: &[MapDisc], sink: &mut dyn Sink) {
         if let Some((last, age)) = self.memory.recall(stamp) {
             self.tracker.recall(&last, age);
         }
         let pads = self.tracker.step(interval, discs);
+        self.told(at, stamp, number, pads, sink);
+    }
+
+    /// Publishes what a frame has brought.
+    fn told(&mut self, at: Times, stamp: Time, number: u64, pads: usize, sink: &mut dyn Sink) {
         self.publish(stamp, number, sink);
+        self.tell_delay(sink);
         self.report.frame(at, self.tracker.tracks(), pads, &self.stream, sink);
         self.memory.keep(at, stamp, self.tracker.tracks(), sink);
         self.show(at, stamp, sink);
+    }
+
+    /// Publishes the delay of the loop when turns have told it anew.
+    fn tell_delay(&mut self, sink: &mut dyn Sink) {
+        let Some((delay, turns)) = self.tracker.delay() else { return };
+        if self.delay != Some(delay) {
+            self.delay = Some(delay);
+            self.report.delay(delay, turns);
+            sink.publish(ODOMETRY + self.tracker.tracks().len() + 1, &Float64 { data: delay });
+        }
     }
 
     /// Pictures for viewers.
@@ -150,7 +186,10 @@ impl OverheadLocalizer {
 
     fn publish(&self, stamp: Time, frame_number: u64, sink: &mut dyn Sink) {
         let tracks = self.tracker.tracks();
-        // First what controllers wait for.
+        // The robot's controller acts on it at the tick.
+        if let Some(turn) = self.tracker.turn() {
+            sink.publish(ODOMETRY + tracks.len(), &messages::identify(stamp, &tracks[turn.robot].name, turn));
+        }
         sink.publish(TEAM_STATE, &messages::team_state(stamp, frame_number, tracks));
         let mut transforms = Vec::with_capacity(tracks.len());
         for (index, track) in tracks.iter().enumerate() {
@@ -171,11 +210,7 @@ impl NodeCore for OverheadLocalizer {
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
             Event::Message { port, source, cdr } => self.message(at, port, source, cdr, sink),
-            Event::Request { service, id, .. } => {
-                self.tracker.reset();
-                let message = "identities are found anew, from the start poses or by order".to_owned();
-                sink.respond(service, id, &TriggerResponse { success: true, message });
-            }
+            Event::Request { service, id, cdr } => naming::answer(&mut self.tracker, service, id, cdr, sink),
             Event::Started | Event::Wakeup => {
                 if let Some(look) = self.gather.as_mut().and_then(|gather| gather.overdue(at.steady)) {
                     self.look(at, &look, sink);
@@ -224,7 +259,12 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     publications.extend(
         tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, Local::NetworkOnly)),
     );
+    publications.push(write("/identify".to_owned(), Identify::TYPE, Local::SharedMemory { max_len: 512 }));
+    publications
+        .push(Advertise { qos: Qos::LATCHED, ..write("/loop_delay".to_owned(), Float64::TYPE, Local::NetworkOnly) });
     let subscriptions = settings.cameras.iter().map(|view| Intake::subscription(settings.input, view)).collect();
-    let services = vec![Serve { name: "~/reset".to_owned(), service: service_info::<Trigger>() }];
+    let trigger = |name: &str| Serve { name: name.to_owned(), service: service_info::<Trigger>() };
+    let name_robots = Serve { name: "~/name_robots".to_owned(), service: service_info::<NameRobots>() };
+    let services = vec![trigger("~/reset"), trigger("~/identify"), name_robots];
     Interface { subscriptions, publications, services, ..Interface::default() }
 }

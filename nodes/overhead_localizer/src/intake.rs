@@ -7,7 +7,7 @@ use trench_config::{ConfigError, Parameters};
 use trench_core::{Qos, RosTime, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::builtin_interfaces::Time;
-use trench_msgs::msg::{Disc as DiscMessage, DiscArray};
+use trench_msgs::msg::{Disc as DiscMessage, DiscArray, PadArray};
 use trench_msgs::sensor_msgs::{CompressedImage, Image, ImageView};
 use trench_msgs::std_msgs::HeaderView;
 use trench_optics::{Camera, Overhead, Pixel};
@@ -56,6 +56,7 @@ impl Intake {
             Input::Image => read("image_raw", Image::TYPE),
             Input::Compressed => read("image_raw/compressed", CompressedImage::TYPE),
             Input::Detections => read("detections", DiscArray::TYPE),
+            Input::Pads => read("pads", PadArray::TYPE),
         }
     }
 
@@ -90,6 +91,7 @@ impl Intake {
                 self.frame(&frame, is_new, discs)
             }
             Input::Detections => self.detections(cdr, is_new, discs),
+            Input::Pads => Err("pads are no discs".to_owned()),
         }
     }
 

@@ -1,13 +1,13 @@
 //! What the tracker knows, as messages.
 
-use crate::track::{State, Status, Track};
+use crate::track::{State, Status, Track, Turn};
 use nalgebra::SMatrix;
 use trench_core::duration_from_seconds;
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::geometry_msgs::{
     Point, Pose, PoseWithCovariance, Quaternion, Transform, TransformStamped, Twist, TwistWithCovariance, Vector3,
 };
-use trench_msgs::msg::{RobotState, TeamState};
+use trench_msgs::msg::{Identify, RobotState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Header;
 
@@ -46,6 +46,11 @@ fn robot_state(track: &Track) -> RobotState {
         twist_covariance: std::array::from_fn(|index| covariance[(3 + index / 2, 3 + index % 2)]),
         unseen: duration_from_seconds(track.unseen.min(NEVER)),
     }
+}
+
+/// What is asked of a robot whose name is in doubt.
+pub(crate) fn identify(stamp: Time, robot: &str, turn: Turn) -> Identify {
+    Identify { header: header(stamp), robot: robot.to_owned(), omega: turn.omega }
 }
 
 /// Where the robot is, if that is known well enough to show.

@@ -58,6 +58,11 @@ impl Report {
         self.health.value("camera", "frames not in time", missing);
     }
 
+    /// The loop's delay by the turns that were seen, s.
+    pub(crate) fn delay(&mut self, delay: f64, turns: usize) {
+        self.health.value("robots", "loop delay, ms", format!("{:.1} by {turns} turns", 1e3 * delay));
+    }
+
     /// Tells of every robot that was lost, found or became doubtful in this frame.
     pub(crate) fn frame(&mut self, at: Times, tracks: &[Track], pads: usize, stream: &Stream, sink: &mut dyn Sink) {
         self.last_frame = Some(at.steady);

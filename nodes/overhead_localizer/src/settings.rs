@@ -1,6 +1,6 @@
 //! The localizer's parameters.
 
-use crate::track::{self, Motion, Robot};
+use crate::track::{self, Motion, Names, Robot};
 use crate::vision::ColourLimits;
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
@@ -15,10 +15,14 @@ pub(crate) enum Input {
     Compressed,
     /// Discs on /overhead/detections.
     Detections,
+    /// Poses, with or without names, on /overhead/pads.
+    Pads,
 }
 
 /// What a detector's centres of discs are taken to be off by, m: 0.0185 pixel of the test bed's camera, as the own one's.
 const DETECTED_SIGMA: f64 = 6e-5;
+/// What makes another system's pads off by 1.3 mm and 0.03 rad, m: the Small Size League's cameras.
+const PADS_SIGMA: f64 = 1.8e-3;
 
 /// What the localizer is told once.
 #[derive(Debug, Clone)]
@@ -30,6 +34,8 @@ pub(crate) struct Settings {
     pub(crate) noise_seed: u64,
     /// So many equal frames in a row are a frozen camera.
     pub(crate) frozen: u32,
+    /// Of each robot, ordered by name, the code of its pad.
+    pub(crate) pad_ids: Vec<i64>,
     pub(crate) team: track::Settings,
     pub(crate) colours: ColourLimits,
 }
@@ -41,9 +47,12 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double_list(
             "initial_poses",
             &[],
-            "m, m, rad: x, y, theta of each robot at the start, in the order of `robots`; empty: names go by x",
+            "m, m, rad: x, y, theta of each robot at the start, in the order of `robots`; empty: see `names`",
         )
         .read_only(),
+        P::integer_list("pad_ids", &[], "codes of the pads on /overhead/pads, in the order of `robots`; empty: 1, 2, 3 and so on")
+            .range(0.0, 65_535.0)
+            .read_only(),
         P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras); {camera} in it stands for the name of one of several").read_only(),
         P::string("mount_file", "", "where the camera hangs, or where several do (config/cameras)").read_only(),
         P::double("cameras.together", 0.002, "s, frames of several cameras whose stamps differ by less are one exposure")
@@ -53,7 +62,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             "input",
             "image",
             "image: find discs in /overhead/image_raw; compressed: in /overhead/image_raw/compressed (PNG or JPEG); \
-             detections: take /overhead/detections",
+             detections: take /overhead/detections; pads: take /overhead/pads",
         )
         .read_only(),
         P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0).read_only(),
@@ -65,6 +74,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             .range(0.005, 2.0)
             .read_only(),
         P::double("pad.tolerance", 0.005, "m, how far a pair of discs may be from the pad's spacing").range(1e-4, 0.1),
+        P::string("colour.camera", "", "the camera whose colours these are, by its lens file; empty: any").read_only(),
         P::double("colour.yellow", colours.yellow_ratio, "least (R + G - 2 B) / (R + G + B) of yellow")
             .range(0.05, 2.0),
         P::double("colour.blue", colours.blue_ratio, "least (2 B - R - G) / (R + G + B) of blue").range(0.05, 2.0),
@@ -75,9 +85,15 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double(
             "disc_sigma",
             0.0,
-            "m, standard deviation of a disc's measured centre; 0: 5e-5 for discs found here, 6e-5 for detections",
+            "m, standard deviation of a disc's measured centre; 0: 5e-5 for discs found here, 6e-5 for detections, 1.8e-3 for pads",
         )
         .range(0.0, 0.1),
+        P::string(
+            "names",
+            "turns",
+            "how doubts about who is who end; turns: by small turns of one robot after the other; told: by ~/name_robots; \
+             order: at the start names go by x, later doubts end by ~/name_robots",
+        ),
         P::double("motion.acceleration", motion.acceleration, "m/s/sqrt(s), how freely forward speeds change")
             .range(1e-3, 100.0),
         P::double("motion.turning", motion.turning, "rad/s/sqrt(s), how freely turning speeds change").range(1e-3, 1e3),
@@ -113,6 +129,12 @@ impl Settings {
         let read = |path: &str| files.read("camera_info_file", path);
         let cameras = Overhead::all(lens_file, (&mount_file, &mounts), read)?;
 
+        let colours_of = parameters.str("colour.camera")?;
+        if let Some(other) = cameras.iter().find(|view| !colours_of.is_empty() && view.lens_name != colours_of) {
+            let problem = format!("these are not the colours of the camera {}", other.lens_name);
+            return Err(parameters.error("colour.camera", problem, "learn them by `trench calibrate colours`"));
+        }
+
         let pad = Pad {
             disc_diameter: parameters.f64("pad.disc_diameter")?,
             disc_spacing: parameters.f64("pad.disc_spacing")?,
@@ -127,7 +149,14 @@ impl Settings {
             "image" => Input::Image,
             "compressed" => Input::Compressed,
             "detections" => Input::Detections,
-            _ => return Err(parameters.error("input", "is not an input", "write image, compressed or detections")),
+            "pads" => Input::Pads,
+            _ => {
+                return Err(parameters.error(
+                    "input",
+                    "is not an input",
+                    "write image, compressed, detections or pads",
+                ));
+            }
         };
         let mut settings = Self {
             cameras,
@@ -135,6 +164,7 @@ impl Settings {
             input,
             noise_seed: parameters.usize("added_noise.seed")? as u64,
             frozen: 0,
+            pad_ids: pad_ids(parameters)?,
             team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },
             colours: ColourLimits::default(),
         };
@@ -155,6 +185,7 @@ impl Settings {
             disc_sigma: match parameters.f64("disc_sigma")? {
                 known if known > 0.0 => known,
                 _ if self.input == Input::Detections => DETECTED_SIGMA,
+                _ if self.input == Input::Pads => PADS_SIGMA,
                 _ => track::Settings::FOUND_SIGMA,
             },
             added_sigma: parameters.f64_array("added_noise.sigma")?,
@@ -164,11 +195,33 @@ impl Settings {
                 turning: parameters.f64("motion.turning")?,
                 slip: parameters.f64("motion.slip")?,
             },
+            names: match parameters.str("names")? {
+                "turns" => Names::Turns,
+                "told" => Names::Told,
+                "order" => Names::Order,
+                _ => return Err(parameters.error("names", "is no way to names", "write turns, told or order")),
+            },
             ..self.team.clone()
         };
         (self.colours, self.team, self.frozen) = (colours, team, frozen);
         Ok(())
     }
+}
+
+/// The codes of the robots' pads, ordered by the robots' names.
+fn pad_ids(parameters: &Parameters) -> Result<Vec<i64>, ConfigError> {
+    let (names, ids) = (parameters.str_list("robots")?, parameters.i64_list("pad_ids")?);
+    if !ids.is_empty() && ids.len() != names.len() {
+        let problem = format!("has {} codes for {} robots", ids.len(), names.len());
+        return Err(parameters.error("pad_ids", problem, "write one for each, or nothing"));
+    }
+    let mut coded: Vec<(&String, i64)> = names
+        .iter()
+        .enumerate()
+        .map(|(index, name)| (name, ids.get(index).copied().unwrap_or(index as i64 + 1)))
+        .collect();
+    coded.sort();
+    Ok(coded.into_iter().map(|(_, id)| id).collect())
 }
 
 /// The robots with their start poses, ordered by name.

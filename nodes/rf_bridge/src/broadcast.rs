@@ -13,8 +13,11 @@ impl RfBridge {
     /// A command came in: send at once if it was the last of its camera frame, else wait a moment for the others.
     pub(crate) fn gather(&mut self, at: Times, sink: &mut dyn Sink) {
         if !self.driving(at.steady) {
-            self.robots.iter_mut().for_each(Robot::halt);
-            return;
+            let turning = self.turning(at.steady);
+            self.halt_but(turning);
+            if turning.is_none() {
+                return;
+            }
         }
         let mut stamps = self.robots.iter().filter(|robot| robot.expected(at.steady)).map(Robot::waiting);
         let first = stamps.next().flatten();
@@ -36,15 +39,15 @@ impl RfBridge {
             self.robots.iter_mut().for_each(Robot::halt);
             return;
         }
-        let driving = self.driving(at.steady);
+        if !self.driving(at.steady) {
+            let turning = self.turning(at.steady);
+            self.halt_but(turning);
+        }
         // Robots count as age what a packet takes beyond the usual, so that alone is subtracted here.
         let usual = self.downlink.duration(self.robots.len()).max(USUAL_AGE as f64 * 1e-9);
         let transport = usual + self.tuning.radio_delay;
         let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
         for robot in &mut self.robots {
-            if !driving {
-                robot.halt();
-            }
             let slot = &mut commands.wheels[usize::from(robot.id)];
             match robot.order(at.steady, transport, &self.tuning) {
                 Order::Drive(wheels, left) => {

@@ -10,7 +10,7 @@ use trench_core::{Condition, Event, Health, Interface, Level, NodeCore, Sink, So
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
-use trench_msgs::msg::RunState;
+use trench_msgs::msg::{Identify, RunState};
 use trench_msgs::std_msgs::Bool;
 use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
@@ -31,6 +31,8 @@ pub struct RfBridge {
     pub(crate) relays: RelayList,
     pub(crate) open: bool,
     pub(crate) running: bool,
+    /// The robot that is being told apart, and when that was heard.
+    pub(crate) turning: Option<(usize, Steady)>,
     pub(crate) stop: EmergencyStop,
     pub(crate) reset_until: Option<Steady>,
     /// When the frame that is being gathered goes out.
@@ -66,6 +68,7 @@ impl RfBridge {
                     self.begin_stop(at, sink);
                 }
             }
+            _ if port == COMMANDS + self.robots.len() => self.hear_identify(at, &Identify::decode(cdr)?),
             _ => {
                 let (twist, stamp) = if self.stamped {
                     let command = TwistStamped::decode(cdr)?;

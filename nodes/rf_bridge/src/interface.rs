@@ -12,7 +12,7 @@ use trench_core::{
 };
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
-use trench_msgs::msg::{LinkStatus, RunState};
+use trench_msgs::msg::{Identify, LinkStatus, RunState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::sensor_msgs::{BatteryState, Range};
 use trench_msgs::std_msgs::Bool;
@@ -22,7 +22,7 @@ use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
 pub(crate) const RUN_STATE: usize = 0;
 pub(crate) const EMERGENCY_STOP: usize = 1;
-/// The robots' cmd_vel follow from here on.
+/// The robots' cmd_vel follow from here on, and /identify.
 pub(crate) const COMMANDS: usize = 2;
 
 pub(crate) const DIAGNOSTICS: usize = 0;
@@ -59,6 +59,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         relays: RelayList::default(),
         open: false,
         running: false,
+        turning: None,
         stop: EmergencyStop::restored(stopped),
         reset_until: None,
         gathered_at: None,
@@ -96,6 +97,7 @@ fn interface(settings: &Settings) -> Interface {
         let ranges = 0..settings.ranges;
         publications.extend(ranges.map(|sensor| advertise(format!("/{name}/range_{sensor}"), Range::TYPE)));
     }
+    subscriptions.push(Subscribe::to::<Identify>("/identify", Qos::RELIABLE));
     Interface {
         subscriptions,
         publications,

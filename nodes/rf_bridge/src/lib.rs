@@ -5,6 +5,7 @@
 //! | command accepted: writer, numbers, stamp | `robot` |
 //! | twist to wheel speeds, speeds below the motors' minimum | `drive`, `dither` |
 //! | one broadcast a camera frame, ages | `broadcast`, `downlink` |
+//! | the turns that tell robots apart, while nothing else may move | `identify` |
 //! | relays for robots out of reach | `relays` |
 //! | emergency stop and reset | `stop`, `stopping` |
 //! | telemetry to topics | `uplink`, `report`, `monitor`, `odometry` |
@@ -18,6 +19,7 @@ mod diagnosis;
 mod dither;
 mod downlink;
 mod drive;
+mod identify;
 mod interface;
 mod monitor;
 mod odometry;

@@ -124,6 +124,11 @@ impl Robot {
         Ok(())
     }
 
+    /// Whether what it is told, if anything, is to turn on the spot no faster than `most`, rad/s.
+    pub(crate) fn only_turns(&self, most: f64) -> bool {
+        self.command.is_none_or(|command| command.v == 0.0 && command.omega.abs() <= most)
+    }
+
     /// Whether a command waits to be sent, and with which stamp.
     pub(crate) fn waiting(&self) -> Option<Option<RosTime>> {
         self.command.map(|command| command.stamp)

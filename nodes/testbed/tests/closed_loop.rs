@@ -3,6 +3,8 @@
 mod common;
 #[path = "cases/relays.rs"]
 mod relays;
+#[path = "cases/turns.rs"]
+mod turns;
 
 use common::{Loop, MS, Texts, strings};
 use trench_config::ParameterValue::{Bool, Double, String as Text};

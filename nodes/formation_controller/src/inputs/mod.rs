@@ -17,7 +17,7 @@ use stamps::timely;
 use std::sync::Arc;
 use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
-use trench_msgs::msg::{Assignment, Member, Point2, RobotState, RunState, TeamState};
+use trench_msgs::msg::{Assignment, Identify, Member, Point2, RobotState, RunState, TeamState};
 
 /// A message and the monotonic time of its receipt: ages that stop robots are measured by it.
 #[derive(Debug, Clone)]
@@ -43,6 +43,9 @@ pub(crate) struct Inputs {
     pub(crate) others: Others,
     pub(crate) voices: Voices,
     pub(crate) emergency_stop: bool,
+    pub(crate) identify: Option<Heard<Identify>>,
+    /// From an exposure to the wheels, s, as the localizer has measured it.
+    pub(crate) loop_delay: Option<f64>,
 }
 
 impl Inputs {

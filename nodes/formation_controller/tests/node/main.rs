@@ -7,3 +7,4 @@ mod laws;
 mod remedies;
 mod stability;
 mod ticks;
+mod turns;

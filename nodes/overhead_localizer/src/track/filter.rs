@@ -8,7 +8,7 @@
 //!
 //! Speeds change by white accelerations ([`Motion`]), so the filter is honest about what it cannot know between frames.
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix2, Matrix3, Point2, SMatrix, SVector, Vector2, Vector3};
 use trench_optics::Pose2;
 
 type Matrix5 = SMatrix<f64, 5, 5>;
@@ -150,7 +150,6 @@ impl Filter {
         let Some(inverse) = spread.try_inverse() else { return };
         let covariance = self.state.covariance;
         let gain = covariance.fixed_view::<5, 3>(0, 0) * inverse;
-        let step = gain * difference;
         // Joseph's form keeps the covariance symmetric and positive.
         let mut keep = Matrix5::identity();
         for column in 0..3 {
@@ -158,12 +157,32 @@ impl Filter {
                 keep[(row, column)] -= gain[(row, column)];
             }
         }
+        self.correct(gain * difference, keep * covariance * keep.transpose() + gain * noise * gain.transpose());
+    }
+
+    /// Takes the measured place of a point `along` (m) the robot's heading from its middle into the estimate; `sigma` (m)
+    /// is the standard deviation along each axis.
+    pub fn update_point(&mut self, along: f64, measured: Point2<f64>, sigma: f64) {
+        let State { pose, covariance, .. } = self.state;
+        let (sine, cosine) = libm::sincos(pose.theta);
+        let difference = Vector2::new(measured.x - pose.x - along * cosine, measured.y - pose.y - along * sine);
+        let mut slope = SMatrix::<f64, 2, 5>::zeros();
+        (slope[(0, 0)], slope[(1, 1)]) = (1.0, 1.0);
+        (slope[(0, 2)], slope[(1, 2)]) = (-along * sine, along * cosine);
+        let noise = Matrix2::identity() * (sigma * sigma);
+        let Some(inverse) = (slope * covariance * slope.transpose() + noise).try_inverse() else { return };
+        let gain = covariance * slope.transpose() * inverse;
+        let keep = Matrix5::identity() - gain * slope;
+        self.correct(gain * difference, keep * covariance * keep.transpose() + gain * noise * gain.transpose());
+    }
+
+    fn correct(&mut self, step: Vector5, covariance: Matrix5) {
         let State { pose, v, omega, .. } = self.state;
         self.state = State {
             pose: Pose2 { x: pose.x + step[0], y: pose.y + step[1], theta: wrap(pose.theta + step[2]) },
             v: v + step[3],
             omega: omega + step[4],
-            covariance: keep * covariance * keep.transpose() + gain * noise * gain.transpose(),
+            covariance,
         };
     }
 }

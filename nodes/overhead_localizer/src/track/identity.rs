@@ -33,8 +33,12 @@ impl Hypotheses {
     pub(super) const MARGIN: f64 = 12.0;
 
     pub(super) fn new(tracks: &[Track], pairs: &[Pair], measurement: &Matrix3<f64>) -> Self {
-        let costs =
-            tracks.iter().map(|track| pairs.iter().map(|pair| track.cost(pair.pose, measurement)).collect()).collect();
+        // Robots whose pad was read in this frame have it.
+        let costs = |track: &Track| {
+            let cost = |pair: &Pair| if track.code_read { None } else { track.cost(pair.pose, measurement) };
+            pairs.iter().map(cost).collect()
+        };
+        let costs = tracks.iter().map(costs).collect();
         Self { costs, was_seen: tracks.iter().map(|track| track.was_seen).collect(), pads: pairs.len() }
     }
 

@@ -12,6 +12,17 @@ pub struct Robot {
     pub start: Option<Pose2>,
 }
 
+/// How robots get their names where no place says it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Names {
+    /// By small turns of one robot after the other.
+    Turns,
+    /// Somebody says them; until then they are in doubt.
+    Told,
+    /// By the pads' x.
+    Order,
+}
+
 /// Everything the tracker is told once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -29,6 +40,8 @@ pub struct Settings {
     pub hold: f64,
     /// How robots move.
     pub motion: Motion,
+    /// How doubts about names end.
+    pub names: Names,
 }
 
 impl Settings {
@@ -46,6 +59,7 @@ impl Settings {
             added_sigma: [0.0; 3],
             hold: 0.5,
             motion: Motion::default(),
+            names: Names::Order,
         }
     }
 }

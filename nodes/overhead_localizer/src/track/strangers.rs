@@ -2,6 +2,7 @@
 
 use super::assignment::assign;
 use super::pairing::Pair;
+use super::settings::{Names, Settings};
 use super::tracker::Track;
 use nalgebra::Matrix3;
 
@@ -18,24 +19,35 @@ pub(super) struct Strangers {
 }
 
 impl Strangers {
-    /// Gives strangers the names of missing robots (unseen for more than `hold`, s).
+    /// Gives strangers the names of missing robots (unseen for more than the hold time).
     ///
-    /// If no robot has a place yet, the names go by order of the pads' x, as soon as all robots are there. The last missing
-    /// robot is recognised as such. Otherwise names go to the nearest, and all of them are in doubt.
-    pub(super) fn place(&mut self, tracks: &mut [Track], pairs: &[Pair], hold: f64, measurement: &Matrix3<f64>) {
+    /// If no robot has a place yet, the names go by order of the pads' x: in doubt, or, if the settings say so, for good as
+    /// soon as all robots are there. The last missing robot is recognised as such. Otherwise names go to the nearest, and
+    /// all of them are in doubt.
+    pub(super) fn place(
+        &mut self,
+        tracks: &mut [Track],
+        pairs: &[Pair],
+        settings: &Settings,
+        measurement: &Matrix3<f64>,
+    ) {
         self.frames = if pairs.len() == self.count { self.frames.saturating_add(1) } else { 1 };
         self.count = pairs.len();
         if self.frames < PATIENCE || pairs.is_empty() {
             return;
         }
         if tracks.iter().all(|track| track.filter.is_none()) {
+            let in_doubt = settings.names != Names::Order;
             // `pairs` come ordered by x.
-            if pairs.len() == tracks.len() {
-                tracks.iter_mut().zip(pairs).for_each(|(track, pair)| track.put(pair, measurement));
+            if in_doubt || pairs.len() == tracks.len() {
+                for (track, pair) in tracks.iter_mut().zip(pairs) {
+                    track.put(pair, measurement);
+                    track.in_doubt = in_doubt;
+                }
             }
             return;
         }
-        let missing: Vec<usize> = (0..tracks.len()).filter(|index| tracks[*index].unseen > hold).collect();
+        let missing: Vec<usize> = (0..tracks.len()).filter(|index| tracks[*index].is_missing(settings.hold)).collect();
         let certain = missing.len() == 1 && pairs.len() == 1;
         let distance = |track: &Track, pair: &Pair| {
             let pose = track.filter.as_ref().map(|filter| filter.state().pose).unwrap_or_default();

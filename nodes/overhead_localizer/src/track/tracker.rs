@@ -2,11 +2,14 @@
 
 use super::filter::{Filter, Motion};
 use super::identity::Hypotheses;
+use super::one_disc;
 use super::pairing::{self, MapDisc, Pair};
-use super::settings::Settings;
+use super::settings::{Names, Settings};
 use super::strangers::Strangers;
+use super::turns::{self, Turn, Turns};
 use crate::noise::Gaussian;
 use nalgebra::{Matrix3, Vector3};
+use trench_optics::Pose2;
 
 /// What is known of a robot in the present frame; numbers as in trench_msgs/RobotState.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,7 +39,14 @@ pub struct Track {
     pub(super) in_doubt: bool,
     /// Whether it was seen in the previous frame.
     pub(super) was_seen: bool,
+    /// Whether one of its discs was seen in the last frame, and not the other.
+    pub(super) half_seen: bool,
+    /// Whether its pad's code was read in this frame.
+    pub(super) code_read: bool,
 }
+
+/// A pad as another vision system has found it: where, and the robot (its place among the tracks) if its code was read.
+pub type NamedPose = (Pose2, Option<usize>);
 
 /// Follows all robots of a team.
 #[derive(Debug, Clone)]
@@ -47,6 +57,8 @@ pub struct Tracker {
     pub(super) remembered: Option<Vec<Track>>,
     pub(super) measurement: Matrix3<f64>,
     strangers: Strangers,
+    turns: Turns,
+    turn: Option<Turn>,
     noise: Gaussian,
 }
 
@@ -68,6 +80,8 @@ impl Tracker {
             remembered: None,
             measurement,
             strangers: Strangers::default(),
+            turns: Turns::default(),
+            turn: None,
             noise: Gaussian::new(seed),
             settings,
         };
@@ -78,6 +92,8 @@ impl Tracker {
     /// Forgets all identities: they are found anew from the start poses or by order.
     pub fn reset(&mut self) {
         self.strangers = Strangers::default();
+        self.turn = None;
+        self.turns.encourage();
         self.remembered = None;
         let unplaced = |robot: &super::settings::Robot| Track {
             name: robot.name.clone(),
@@ -86,6 +102,8 @@ impl Tracker {
             unseen: f64::INFINITY,
             in_doubt: false,
             was_seen: false,
+            half_seen: false,
+            code_read: false,
         };
         self.tracks = self.settings.robots.iter().map(unplaced).collect();
     }
@@ -102,6 +120,53 @@ impl Tracker {
         &self.tracks
     }
 
+    /// What is asked of whom, to find out which robot it is; good for the present frame.
+    #[must_use]
+    pub fn turn(&self) -> Option<Turn> {
+        self.turn
+    }
+
+    /// From an exposure to the wheels that obey what it led to, s, by the turns seen so far, and their number.
+    #[must_use]
+    pub fn delay(&self) -> Option<(f64, usize)> {
+        self.turns.delay()
+    }
+
+    /// Puts all names in doubt.
+    pub fn doubt(&mut self) {
+        self.tracks.iter_mut().for_each(|track| track.in_doubt = track.filter.is_some());
+        self.turns.encourage();
+    }
+
+    /// Gives names to the pads nearest to places (m); other names keep their pads, or become doubtful where those are given
+    /// away.
+    ///
+    /// # Errors
+    /// With the reason, and nothing has changed.
+    pub fn name(&mut self, names: &[(String, [f64; 2])]) -> Result<(), String> {
+        let mut tracks = self.tracks.clone();
+        let mut taken = Vec::new();
+        for (name, [x, y]) in names {
+            let distance = |pad: &usize| {
+                let place = tracks[*pad].filter.as_ref().map(|filter| filter.state().pose).unwrap_or_default();
+                libm::hypot(place.x - x, place.y - y)
+            };
+            let seen = (0..tracks.len()).filter(|pad| tracks[*pad].unseen == 0.0);
+            let nearest = seen.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let pad = nearest.filter(|pad| distance(pad) < self.settings.pad.body_diameter);
+            let pad = pad.ok_or_else(|| format!("no pad is seen at ({x}, {y})"))?;
+            let robot = tracks.iter().position(|track| track.name == *name);
+            let robot = robot.ok_or_else(|| format!("no robot of the team is called {name}"))?;
+            if taken.contains(&robot) || taken.contains(&pad) {
+                return Err(format!("{name} is named twice, or its pad is"));
+            }
+            turns::give(&mut tracks, robot, pad, self.settings.hold);
+            taken.push(robot);
+        }
+        self.tracks = tracks;
+        Ok(())
+    }
+
     /// Takes the discs of a frame exposed `dt` (s) after the previous one; gives the number of pads seen.
     pub fn step(&mut self, dt: f64, discs: &[MapDisc]) -> usize {
         self.choose(discs);
@@ -109,7 +174,37 @@ impl Tracker {
             track.advance(dt, &self.settings);
         }
         let pairs = self.pairs(discs);
-        let hypotheses = Hypotheses::new(&self.tracks, &pairs, &self.measurement);
+        let matched = self.matched(&pairs);
+        let sigma = self.settings.disc_sigma;
+        one_disc::correct(&mut self.tracks, &matched, &pairs, discs, &self.settings.pad, sigma);
+        self.close(dt, &pairs, &matched);
+        pairs.len()
+    }
+
+    /// Takes the pads that another vision system has found in a frame exposed `dt` (s) after the previous one.
+    pub fn step_pads(&mut self, dt: f64, pads: &[NamedPose]) {
+        for track in &mut self.tracks {
+            track.advance(dt, &self.settings);
+            (track.half_seen, track.code_read) = (false, false);
+        }
+        let mut without_code = Vec::new();
+        for (pose, robot) in pads {
+            let pair = Pair { pose: *pose, gain: 0.0 };
+            match robot.and_then(|robot| self.tracks.get_mut(robot)) {
+                Some(track) => {
+                    track.see(&pair, &self.measurement, &self.settings);
+                    (track.in_doubt, track.code_read) = (false, true);
+                }
+                None => without_code.push(pair),
+            }
+        }
+        let matched = self.matched(&without_code);
+        self.close(dt, &without_code, &matched);
+    }
+
+    /// For each robot that was not seen yet its pad among `pairs`, which it takes.
+    fn matched(&mut self, pairs: &[Pair]) -> Vec<Option<usize>> {
+        let hypotheses = Hypotheses::new(&self.tracks, pairs, &self.measurement);
         let matched = hypotheses.best();
         let doubtful = hypotheses.doubtful(&matched);
         for (index, pair) in matched.iter().enumerate() {
@@ -118,11 +213,21 @@ impl Tracker {
                 self.tracks[index].in_doubt |= doubtful[index];
             }
         }
+        matched
+    }
+
+    /// Ends a frame: strangers, turns, statuses.
+    fn close(&mut self, dt: f64, pairs: &[Pair], matched: &[Option<usize>]) {
         let unmatched: Vec<Pair> =
             (0..pairs.len()).filter(|index| !matched.contains(&Some(*index))).map(|index| pairs[index]).collect();
-        self.strangers.place(&mut self.tracks, &unmatched, self.settings.hold, &self.measurement);
+        self.strangers.place(&mut self.tracks, &unmatched, &self.settings, &self.measurement);
+        self.resolve(unmatched.is_empty());
+        if self.settings.names == Names::Turns {
+            let Self { turns, tracks, settings, measurement, .. } = self;
+            self.turn = turns.step(dt, tracks, &unmatched, settings.hold, measurement);
+            self.resolve(unmatched.is_empty());
+        }
         self.settle();
-        pairs.len()
     }
 
     /// The pads of a frame as they are seen.
@@ -151,17 +256,21 @@ impl Tracker {
         pairs
     }
 
-    /// Gives every robot its status, after the last doubt is resolved: when all are seen, a single robot cannot be another.
-    fn settle(&mut self) {
-        let all_seen = self.tracks.iter().all(|track| track.unseen == 0.0);
+    /// Ends the last doubt: when all are seen, and no pad besides, a single robot cannot be another.
+    fn resolve(&mut self, no_strangers: bool) {
+        let all_seen = no_strangers && self.tracks.iter().all(|track| track.unseen == 0.0);
         if all_seen && self.tracks.iter().filter(|track| track.in_doubt).count() == 1 {
             for track in &mut self.tracks {
                 track.in_doubt = false;
             }
         }
+    }
+
+    /// Gives every robot its status.
+    fn settle(&mut self) {
         for track in &mut self.tracks {
             track.status = match track {
-                _ if track.unseen > self.settings.hold => Status::Lost,
+                _ if track.is_missing(self.settings.hold) => Status::Lost,
                 _ if track.in_doubt => Status::Ambiguous,
                 _ if track.unseen > 0.0 => Status::Predicted,
                 _ => Status::Tracked,
@@ -191,7 +300,7 @@ impl Track {
         if self.unseen == f64::INFINITY {
             return;
         }
-        let moving = dt.min((settings.hold - self.unseen).max(0.0));
+        let moving = if self.half_seen { dt } else { dt.min((settings.hold - self.unseen).max(0.0)) };
         if moving > 0.0 {
             filter.predict(moving, &settings.motion);
         }
@@ -199,6 +308,11 @@ impl Track {
             filter.rest(dt - moving);
         }
         self.unseen += dt;
+    }
+
+    /// Whether nobody knows where it is: unseen for longer than `hold` (s), and not kept by one of its discs.
+    pub(super) fn is_missing(&self, hold: f64) -> bool {
+        self.unseen > hold && !(self.half_seen && self.unseen <= one_disc::LONGEST)
     }
 
     /// Takes a pad as this robot's.

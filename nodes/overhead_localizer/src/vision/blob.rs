@@ -1,5 +1,6 @@
 //! From one pixel inside a disc to the disc's extent.
 
+use super::balance::Weights;
 use super::chroma::{Colour, chroma};
 use super::frame::Frame;
 
@@ -15,6 +16,7 @@ pub(super) struct Extent {
 pub(super) struct Tracer<'a, const RED: usize> {
     pub(super) frame: Frame<'a>,
     pub(super) colour: Colour,
+    pub(super) weights: Weights,
     /// Longest run that can be a disc's, pixels.
     pub(super) longest: usize,
 }
@@ -42,11 +44,26 @@ impl<const RED: usize> Tracer<'_, RED> {
         around(v).flat_map(|row| around(u).map(move |column| self.chroma(column, row))).sum::<i32>() / 9
     }
 
+    /// The mean of the 3 x 3 pixels around a place that is inside the image.
+    pub(super) fn mean_pixel(&self, u: usize, v: usize) -> [u8; 3] {
+        let (mut sum, mut count) = ([0_u32; 3], 0);
+        for row in v.saturating_sub(1)..v + 2 {
+            let pixels = self.frame.row(row);
+            for pixel in
+                pixels.get(3 * u.saturating_sub(1)..(3 * (u + 2)).min(pixels.len())).unwrap_or_default().chunks_exact(3)
+            {
+                sum = [0, 1, 2].map(|channel| sum[channel] + u32::from(pixel[channel]));
+                count += 1;
+            }
+        }
+        sum.map(|total| (total / count.max(1)) as u8)
+    }
+
     /// Chroma in the direction of the colour; as good as none outside the image.
     #[inline]
     pub(super) fn chroma(&self, u: usize, v: usize) -> i32 {
         match self.frame.row(v).get(3 * u..3 * u + 3) {
-            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c]),
+            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c], self.weights),
             _ => i32::MIN / 16,
         }
     }
@@ -62,14 +79,15 @@ impl<const RED: usize> Tracer<'_, RED> {
     /// The longest interval around `start` on which `inside` holds; None if longer than a disc.
     fn run(&self, start: usize, inside: impl Fn(usize) -> bool) -> Option<[usize; 2]> {
         let (mut first, mut last) = (start, start);
-        while first > 0 && inside(first - 1) {
-            first -= 1;
+        // A pixel that noise has taken out of the disc is passed over.
+        while let Some(next) = [1, 2].into_iter().find(|step| first >= *step && inside(first - step)) {
+            first -= next;
             if start - first > self.longest {
                 return None;
             }
         }
-        while inside(last + 1) {
-            last += 1;
+        while let Some(next) = [1, 2].into_iter().find(|step| inside(last + step)) {
+            last += next;
             if last - first > self.longest {
                 return None;
             }

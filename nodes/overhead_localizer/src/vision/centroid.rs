@@ -10,6 +10,8 @@ pub(super) struct Measured {
     pub(super) centre: Pixel,
     /// pixel^2
     pub(super) area: f64,
+    /// Chroma of the disc less that of the ground.
+    pub(super) contrast: i32,
 }
 
 /// How far outside the disc's edge pixels still count, pixels. The pad's other disc begins 3.9 pixels away, the floor
@@ -49,7 +51,7 @@ pub(super) fn measure<const RED: usize>(tracer: &Tracer<'_, RED>, extent: Extent
         let pixels = tracer.frame.row(v).get(3 * first..3 * last).unwrap_or_default();
         let (mut row_sum, mut row_moment) = (0_i32, 0_i32);
         for (column, pixel) in pixels.chunks_exact(3).enumerate() {
-            let chroma = tracer.colour.sign() * chroma::<RED>([pixel[0], pixel[1], pixel[2]]);
+            let chroma = tracer.colour.sign() * chroma::<RED>([pixel[0], pixel[1], pixel[2]], tracer.weights);
             let weight = chroma.clamp(lowest, highest) - lowest;
             row_sum += weight;
             row_moment += weight * column as i32;
@@ -62,6 +64,7 @@ pub(super) fn measure<const RED: usize>(tracer: &Tracer<'_, RED>, extent: Extent
     (sum > 0).then(|| Measured {
         centre: Pixel { u: sum_u as f64 / total, v: sum_v as f64 / total },
         area: total / f64::from(highest - lowest),
+        contrast,
     })
 }
 

@@ -1,7 +1,11 @@
-//! One number that tells yellow from blue: the opponent channel R + G - 2 B.
+//! One number that tells yellow from blue: the opponent channel R + G - 2 B, of pixels whose grey is grey.
 //!
 //! It is zero on everything grey, linear in the colours (a pixel half covered by a disc has half the disc's chroma) and
-//! proportional to the light; divided by the pixel's sum it does not depend on the light at all.
+//! proportional to the light; divided by the pixel's sum it does not depend on the light at all. The colour of the light is
+//! taken out before ([`super::balance`]). Where a channel is cut off at 255 the chroma is less than it should be, and red and
+//! green differ more: there less is asked for.
+
+use super::balance::{UNIT, Weights};
 
 /// What a disc is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,11 +38,14 @@ pub struct ColourLimits {
 }
 
 impl Default for ColourLimits {
-    /// Pads as the test bed's, light between a third of full and full.
+    /// Pads as the test bed's, light between a third of nominal and three times as much.
     fn default() -> Self {
-        Self { yellow_ratio: 0.45, blue_ratio: 0.45, minimum: 60.0 }
+        Self { yellow_ratio: 0.45, blue_ratio: 0.45, minimum: 40.0 }
     }
 }
+
+/// From here on a channel may be cut off, of 255.
+const CUT_OFF: u8 = 250;
 
 /// The limits in integers, ratios in 1/256.
 #[derive(Debug, Clone, Copy)]
@@ -60,26 +67,50 @@ impl Classifier {
 
     /// The colour of a pixel, if it has one. Red and blue are the bytes at `RED` and `2 - RED`.
     #[inline]
-    pub(super) fn classify<const RED: usize>(&self, pixel: [u8; 3]) -> Option<Colour> {
-        let chroma = chroma::<RED>(pixel);
+    pub(super) fn classify<const RED: usize>(&self, pixel: [u8; 3], weights: Weights) -> Option<Colour> {
+        let chroma = chroma::<RED>(pixel, weights);
         if chroma.abs() < self.minimum {
             return None;
         }
-        let (red, green, blue) = (i32::from(pixel[RED]), i32::from(pixel[1]), i32::from(pixel[2 - RED]));
-        // Red, green and purple things differ in red and green; yellow and blue do not.
-        if 2 * (red - green).abs() > chroma.abs() {
+        self.judge::<RED>(pixel, weights, chroma)
+    }
+
+    fn judge<const RED: usize>(&self, pixel: [u8; 3], weights: Weights, chroma: i32) -> Option<Colour> {
+        let (raw_red, raw_blue) = (pixel[RED], pixel[2 - RED]);
+        let (colour, ratio, weakest) = if chroma > 0 {
+            (Colour::Yellow, self.yellow_ratio, raw_blue)
+        } else {
+            (Colour::Blue, self.blue_ratio, raw_red)
+        };
+        let is_cut_off = pixel.iter().any(|value| *value >= CUT_OFF);
+        // The channel that a disc lacks is never bright: white in lamp light, cut off, is.
+        if is_cut_off && weakest >= CUT_OFF {
             return None;
         }
-        let (colour, ratio) =
-            if chroma > 0 { (Colour::Yellow, self.yellow_ratio) } else { (Colour::Blue, self.blue_ratio) };
+        let (red, green) = (weighted(raw_red, weights.red) / UNIT, i32::from(pixel[1]));
+        let blue = weighted(raw_blue, weights.blue) / UNIT;
+        // Red, green and purple things differ in red and green; yellow and blue do not.
+        let (difference, limit) = if is_cut_off { (10 * (red - green).abs(), 9) } else { (2 * (red - green).abs(), 1) };
+        let excusable = is_cut_off && colour == Colour::Yellow && raw_red >= CUT_OFF && green > red;
+        if difference > limit * chroma.abs() && !excusable {
+            return None;
+        }
+        let ratio = if is_cut_off { ratio / 2 } else { ratio };
         (256 * chroma.abs() > ratio * (red + green + blue)).then_some(colour)
     }
 }
 
-/// R + G - 2 B.
+/// R + G - 2 B of a pixel in white light.
 #[inline]
-pub(super) fn chroma<const RED: usize>(pixel: [u8; 3]) -> i32 {
-    i32::from(pixel[RED]) + i32::from(pixel[1]) - 2 * i32::from(pixel[2 - RED])
+pub(super) fn chroma<const RED: usize>(pixel: [u8; 3], weights: Weights) -> i32 {
+    let (red, blue) = (weighted(pixel[RED], weights.red), weighted(pixel[2 - RED], weights.blue));
+    (red + UNIT * i32::from(pixel[1]) - 2 * blue) / UNIT
+}
+
+/// A value in white light; one that is cut off is at least what it says.
+#[inline]
+fn weighted(value: u8, weight: i32) -> i32 {
+    i32::from(value) * if value < CUT_OFF { weight } else { weight.max(UNIT) }
 }
 
 #[cfg(test)]
@@ -90,8 +121,9 @@ mod tests {
     fn knows_the_pads_colours_in_any_light_and_nothing_else() {
         let classifier = Classifier::new(&ColourLimits::default());
         let check = |rgb: [u8; 3], expected| {
-            assert_eq!(classifier.classify::<0>(rgb), expected, "{rgb:?}");
-            assert_eq!(classifier.classify::<2>([rgb[2], rgb[1], rgb[0]]), expected, "{rgb:?} as bgr");
+            let weights = Weights::NEUTRAL;
+            assert_eq!(classifier.classify::<0>(rgb, weights), expected, "{rgb:?}");
+            assert_eq!(classifier.classify::<2>([rgb[2], rgb[1], rgb[0]], weights), expected, "{rgb:?} as bgr");
         };
         check([235, 205, 45], Some(Colour::Yellow));
         check([80, 70, 15], Some(Colour::Yellow));
@@ -101,6 +133,29 @@ mod tests {
             [[150; 3], [0; 3], [255; 3], [38, 38, 40], [172, 134, 98], [220, 30, 30], [30, 200, 40], [150, 20, 180]]
         {
             check(other, None);
+        }
+    }
+
+    /// What the camera gives of a colour in this light.
+    fn lit(rgb: [f64; 3], tint: [f64; 3], light: f64) -> [u8; 3] {
+        [0, 1, 2].map(|channel| (rgb[channel] * tint[channel] * light).min(255.0) as u8)
+    }
+
+    #[test]
+    fn knows_them_in_lamp_light_and_where_channels_are_cut_off() {
+        let classifier = Classifier::new(&ColourLimits::default());
+        for tint in [[1.57, 1.0, 0.45], [1.0, 1.0, 1.0], [0.885, 1.0, 1.24]] {
+            let weight = |channel: usize| (64.0 / tint[channel] + 0.5) as i32;
+            let weights = Weights { red: weight(0), blue: weight(2) };
+            for step in 0..40 {
+                let light = 0.3 * f64::powf(10.0, f64::from(step) / 39.0);
+                let seen = |rgb| classifier.classify::<0>(lit(rgb, tint, light), weights);
+                assert_eq!(seen([235.0, 205.0, 45.0]), Some(Colour::Yellow), "light {light}, {tint:?}");
+                assert_eq!(seen([35.0, 80.0, 200.0]), Some(Colour::Blue), "light {light}, {tint:?}");
+                for other in [[150.0, 150.0, 145.0], [38.0, 38.0, 40.0], [95.0; 3], [220.0, 30.0, 30.0]] {
+                    assert_eq!(seen(other), None, "{other:?} in light {light}, {tint:?}");
+                }
+            }
         }
     }
 }

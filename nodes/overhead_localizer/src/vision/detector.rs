@@ -1,9 +1,12 @@
 //! All discs of a frame.
 
+use super::balance::{Balance, Weights};
 use super::blob::Tracer;
 use super::centroid;
 use super::chroma::{Classifier, Colour, ColourLimits};
+use super::faint;
 use super::frame::{ChannelOrder, Frame};
+use super::rim;
 use nalgebra::Point3;
 use trench_optics::{Camera, Pad, Pixel};
 
@@ -16,7 +19,7 @@ pub struct Disc {
     pub centre: Pixel,
     /// pixel^2
     pub area: f64,
-    /// 0..1: how well its area fits.
+    /// 0..1: how well its area fits, and its area to its extent.
     pub confidence: f64,
 }
 
@@ -50,12 +53,22 @@ const LARGEST: f64 = 1.35;
 /// More discs than any team has: a frame full of colour must not take for ever.
 const MOST_DISCS: usize = 256;
 
-/// Finds discs; keeps nothing from frame to frame.
+/// A disc's area is this part of that of the ellipse in its extent, or it has holes, corners or tails.
+const ROUND: [f64; 2] = [0.7, 1.25];
+
+/// Below this contrast of 510 a disc hardly stands out.
+const FAINT: i32 = 130;
+
+/// Above this confidence a disc is seen whole.
+const CERTAIN: f64 = 0.8;
+
+/// Finds discs; keeps nothing from frame to frame but the colour of the light.
 #[derive(Debug, Clone)]
 pub struct Detector {
     classifier: Classifier,
     expectation: Expectation,
     stride: usize,
+    balance: Balance,
 }
 
 impl Detector {
@@ -64,26 +77,35 @@ impl Detector {
     pub fn new(limits: &ColourLimits, expectation: Expectation) -> Self {
         // Two looks across the smallest disc.
         let stride = (0.4 * expectation.width.min(expectation.height)) as usize;
-        Self { classifier: Classifier::new(limits), expectation, stride: stride.max(1) }
+        Self { classifier: Classifier::new(limits), expectation, stride: stride.max(1), balance: Balance::default() }
     }
 
     /// Puts the discs of `frame` into `discs`, in the order of their topmost look. Discs cut by the image's edge are left
     /// out: their centre is not where it seems.
-    pub fn detect(&self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
+    pub fn detect(&mut self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
         discs.clear();
         match frame.order {
-            ChannelOrder::Rgb => self.scan::<0>(frame, discs),
-            ChannelOrder::Bgr => self.scan::<2>(frame, discs),
+            ChannelOrder::Rgb => {
+                let weights = self.balance.look::<0>(frame);
+                self.scan::<0>(frame, weights, discs);
+            }
+            ChannelOrder::Bgr => {
+                let weights = self.balance.look::<2>(frame);
+                self.scan::<2>(frame, weights, discs);
+            }
         }
     }
 
-    fn scan<const RED: usize>(&self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
+    fn scan<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, discs: &mut Vec<Disc>) {
         for v in (self.stride / 2..frame.height).step_by(self.stride) {
             for (index, look) in frame.row(v).chunks_exact(3 * self.stride).enumerate() {
-                let Some(colour) = self.classifier.classify::<RED>([look[0], look[1], look[2]]) else { continue };
+                let Some(colour) = self.classifier.classify::<RED>([look[0], look[1], look[2]], weights) else {
+                    continue;
+                };
                 let u = index * self.stride;
                 if !self.is_known(discs, colour, u, v)
-                    && let Some(disc) = self.disc_around::<RED>(frame, colour, u, v)
+                    && let Some(disc) = self.disc_around::<RED>(frame, colour, weights, [u, v])
+                    && !self.is_known(discs, colour, disc.centre.u as usize, disc.centre.v as usize)
                 {
                     discs.push(disc);
                     if discs.len() == MOST_DISCS {
@@ -104,10 +126,30 @@ impl Detector {
         })
     }
 
-    fn disc_around<const RED: usize>(&self, frame: Frame<'_>, colour: Colour, u: usize, v: usize) -> Option<Disc> {
+    fn disc_around<const RED: usize>(
+        &self,
+        frame: Frame<'_>,
+        colour: Colour,
+        weights: Weights,
+        [u, v]: [usize; 2],
+    ) -> Option<Disc> {
         let expected = self.expectation;
         let longest = (LARGEST * expected.width.max(expected.height)) as usize;
-        let tracer = Tracer::<RED> { frame, colour, longest };
+        let tracer = Tracer::<RED> { frame, colour, weights, longest };
+        // One pixel may be noise; nine are not.
+        if self.classifier.classify::<RED>(tracer.mean_pixel(u, v), weights) != Some(colour) {
+            return None;
+        }
+        match self.whole(&tracer, [u, v]) {
+            Some(disc) if disc.confidence > CERTAIN => Some(disc),
+            // Something may lie over it: then its centre of area is not its centre.
+            unsure => self.hidden(&tracer, [u, v]).or(unsure),
+        }
+    }
+
+    /// A disc that is seen whole.
+    fn whole<const RED: usize>(&self, tracer: &Tracer<'_, RED>, [u, v]: [usize; 2]) -> Option<Disc> {
+        let (expected, frame) = (self.expectation, tracer.frame);
         let extent = tracer.extent(u, v)?;
         let fits = |[first, last]: [usize; 2], size: f64, expected: f64| {
             let ratio = (last - first + 1) as f64 / expected;
@@ -119,13 +161,34 @@ impl Detector {
         {
             return None;
         }
-        let measured = centroid::measure(&tracer, extent)?;
+        let measured = centroid::measure(tracer, extent)?;
         let ratio = measured.area / expected.area();
-        (SMALLEST..LARGEST).contains(&ratio).then(|| Disc {
-            colour,
-            centre: measured.centre,
+        let side = |[first, last]: [usize; 2]| (last - first + 1) as f64;
+        let round = measured.area / (std::f64::consts::FRAC_PI_4 * side(extent.columns) * side(extent.rows));
+        let fits = (SMALLEST..LARGEST).contains(&ratio) && (ROUND[0]..ROUND[1]).contains(&round);
+        let half = [0.5 * expected.width, 0.5 * expected.height];
+        let is_faint = measured.contrast < FAINT;
+        let centre = if is_faint { faint::centre(tracer, measured.centre, half) } else { None };
+        fits.then(|| Disc {
+            colour: tracer.colour,
+            centre: centre.unwrap_or(measured.centre),
             area: measured.area,
-            confidence: ratio.min(1.0 / ratio),
+            confidence: ratio.min(1.0 / ratio) * round.min(1.0 / round),
+        })
+    }
+
+    /// A disc that something lies over in part, away from the image's edge.
+    fn hidden<const RED: usize>(&self, tracer: &Tracer<'_, RED>, place: [usize; 2]) -> Option<Disc> {
+        let half = [0.5 * self.expectation.width, 0.5 * self.expectation.height];
+        let rim = rim::find(tracer, place, half)?;
+        let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
+        let whole =
+            inside(rim.centre.u, half[0], tracer.frame.width) && inside(rim.centre.v, half[1], tracer.frame.height);
+        whole.then(|| Disc {
+            colour: tracer.colour,
+            centre: rim.centre,
+            area: rim.size * rim.size * self.expectation.area(),
+            confidence: 0.5 * rim.seen,
         })
     }
 }

@@ -3,12 +3,15 @@
 //! One look at every eighth pixel of every eighth row cannot miss a disc 20 pixels wide; only around the hits are pixels
 //! read one by one. So a frame costs a few ten thousand pixel reads instead of 442,368.
 
+mod balance;
 mod blob;
 mod centroid;
 mod chroma;
 mod detector;
+mod faint;
 mod frame;
 mod packed;
+mod rim;
 mod yuyv;
 
 pub use chroma::{Colour, ColourLimits};

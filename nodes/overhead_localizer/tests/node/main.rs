@@ -15,7 +15,7 @@ use trench_core::{
 use trench_msgs::Encode;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TransformStamped;
-use trench_msgs::msg::{Disc, DiscArray, RobotState, TeamState};
+use trench_msgs::msg::{Disc, DiscArray, Pad as PadMessage, PadArray, RobotState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::sensor_msgs::Image;
 use trench_msgs::std_msgs::Header;
@@ -73,10 +73,11 @@ fn restart(more: &str, checkpoint: Option<Vec<u8>>) -> Result<Box<dyn NodeCore>,
     (description.build)(&context, &parameters, &Shipped).map_err(|error| error.to_string())
 }
 
-/// Without start poses, on detections.
-fn nameless() -> Box<dyn NodeCore> {
+/// Without start poses, on detections; names are found in this way.
+fn nameless(names: &str) -> Box<dyn NodeCore> {
     let description = description();
-    let text = PARAMETERS.replace("initial_poses: [1.5, 1.2, -2.0, 0.5, 0.5, 0.8]", "input: detections");
+    let input = format!("input: detections\n    names: {names}");
+    let text = PARAMETERS.replace("initial_poses: [1.5, 1.2, -2.0, 0.5, 0.5, 0.8]", &input);
     let sources = [Given::File { name: "localizer.yaml", text: &text }];
     let parameters = resolve(&sources, "/", description.name, &(description.parameters)()).unwrap();
     (description.build)(&NodeContext::default(), &parameters, &Shipped).unwrap()
@@ -158,7 +159,10 @@ fn one_frame_gives_the_teams_state_odometry_and_transforms() {
         assert!(odometry.pose.covariance[0] > 0.0 && odometry.pose.covariance[35] > 0.0);
     }
     let topics: Vec<&str> = core.interface().publications.iter().map(|each| each.topic.as_str()).collect();
-    assert_eq!(topics, ["/team_state", "/tf", "/diagnostics", "/markers", "/robot1/odom", "/robot2/odom"]);
+    assert_eq!(
+        topics,
+        ["/team_state", "/tf", "/diagnostics", "/markers", "/robot1/odom", "/robot2/odom", "/identify", "/loop_delay"]
+    );
 }
 
 #[test]
@@ -324,7 +328,37 @@ fn wrong_parameters_stop_the_node_before_it_works() {
         "1.5,",
         "localizer.yaml:4: initial_poses = [1.5, -2.0, 0.5, 0.5, 0.8]: has 5 numbers for 2 robots",
     );
+    check(
+        "    robots:",
+        "    colour: {camera: west}\n    robots:",
+        "localizer.yaml:3: colour.camera = \"west\": these are not the colours of the camera overhead",
+    );
     check("file: overhead.yaml", "file: none.yaml", "camera_info_file = none.yaml: cannot be read");
     check("file: overhead_mount.yaml", "file: overhead.yaml", "overhead.yaml:3: mount: is missing");
     check("file: overhead.yaml", "file: \"\"", "localizer.yaml:5: camera_info_file = ");
+}
+
+#[test]
+fn pads_with_codes_name_their_robots_and_others_go_by_where_they_were() {
+    let mut core = build("    input: pads\n    pad_ids: [7, 4]\n").unwrap();
+    assert_eq!(core.interface().subscriptions[0].topic, "/overhead/pads");
+    let pad = |id: i32, pose: Pose2| PadMessage { id, x: pose.x, y: pose.y, theta: pose.theta, confidence: 1.0 };
+    let mut send_pads = |sequence: u64, pads: Vec<PadMessage>| {
+        let stamp = timing(sequence).0.into();
+        send(core.as_mut(), sequence, &PadArray { header: Header { stamp, ..Header::default() }, pads }.to_cdr())
+    };
+    // `robots` are robot2, robot1: 7 is robot2's code. Not where they start, and one of another team.
+    let places = [Pose2 { x: 2.0, y: 0.4, theta: 0.1 }, Pose2 { x: 0.3, y: 1.5, theta: 3.0 }];
+    let seen = vec![pad(7, places[1]), pad(4, places[0]), pad(99, START[0])];
+    let state: TeamState = send_pads(1, seen).last(0).unwrap();
+    for (robot, place) in state.robots.iter().zip(places) {
+        assert_eq!(robot.status, RobotState::STATUS_TRACKED, "{robot:?}");
+        assert!((robot.x - place.x).hypot(robot.y - place.y) < 1e-9, "{robot:?}");
+    }
+    // A code that is not read goes by place; the rest of the robots keep theirs.
+    let state: TeamState = send_pads(2, vec![pad(PadMessage::NO_ID, places[0]), pad(7, places[1])]).last(0).unwrap();
+    assert!(state.robots.iter().all(|robot| robot.status == RobotState::STATUS_TRACKED), "{state:?}");
+    for bad in [vec![pad(7, places[0]), pad(7, places[1])], vec![pad(7, Pose2 { x: f64::NAN, ..places[0] })]] {
+        assert_eq!(send_pads(3, bad).published::<TeamState>(0), []);
+    }
 }

@@ -1,9 +1,11 @@
 //! What people are shown: markers, and who is missing.
 
-use super::{START, build, detections, detections_of, send};
-use trench_core::{Action, Level, Outbox};
+use super::{START, build, detections, detections_of, send, wake};
+use trench_core::{Action, Event, Level, Outbox, RequestId};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::msg::{Identify, NameRobotsRequest, NameRobotsResponse, RobotState, TeamState};
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
+use trench_msgs::{Encode, Message};
 
 fn pictures(outbox: &Outbox) -> Vec<MarkerArray> {
     outbox.published(3)
@@ -65,11 +67,47 @@ fn more_robots_than_pads_is_said_with_the_names_of_the_missing() {
 
 #[test]
 fn without_start_poses_all_pads_are_waited_for() {
-    let mut core = super::nameless();
+    let mut core = super::nameless("order");
     for sequence in 1..=30 {
         send(core.as_mut(), sequence, &detections_of(&START[..1], sequence, |_| ()));
     }
     let report: DiagnosticArray = super::wake(core.as_mut(), 10_000_000_000);
     let expected = "2 robots, 1 pads found: names are given when the pads of all of them are seen: robot1 robot2";
     assert_eq!(report.status[1].message, expected);
+}
+
+#[test]
+fn without_start_poses_robots_are_asked_to_turn_one_after_the_other() {
+    let mut core = super::nameless("turns");
+    let asked: Vec<Identify> = (1..=12)
+        .flat_map(|sequence| send(core.as_mut(), sequence, &detections(sequence, |_| ())).published::<Identify>(6))
+        .collect();
+    // Pads must be seen, and stand for a while, before anybody is asked; then one is, in every frame.
+    assert!((3..=6).contains(&asked.len()) && asked.iter().all(|each| each.robot == "robot1"), "{asked:?}");
+    assert_eq!(wake(core.as_mut(), 10_000_000_000).status[1].message, "in doubt: robot1 robot2");
+    // A person knows better.
+    let request = NameRobotsRequest { robots: vec!["robot1".to_owned()], x: vec![1.5], y: vec![1.2] };
+    let name = |core: &mut dyn trench_core::NodeCore, request: &NameRobotsRequest| {
+        let mut outbox = Outbox::default();
+        let event = Event::Request { service: 2, id: RequestId(1), cdr: &request.to_cdr() };
+        core.handle(trench_core::Times::default(), event, &mut outbox);
+        match outbox.actions.as_slice() {
+            [Action::Respond { service: 2, cdr, .. }] => NameRobotsResponse::decode(cdr).unwrap(),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!(name(core.as_mut(), &request).success);
+    let outbox = send(core.as_mut(), 13, &detections(13, |_| ()));
+    let state: TeamState = outbox.last(0).unwrap();
+    // With one known, the other one is known.
+    assert!(state.robots.iter().all(|robot| robot.status == RobotState::STATUS_TRACKED), "{state:?}");
+    assert!((state.robots[0].x - 1.5).abs() < 1e-3 && outbox.published::<Identify>(6).is_empty());
+    for bad in [
+        NameRobotsRequest { y: Vec::new(), ..request.clone() },
+        NameRobotsRequest { x: vec![f64::NAN], ..request.clone() },
+        NameRobotsRequest { robots: vec!["robot9".to_owned()], ..request.clone() },
+        NameRobotsRequest { x: vec![0.9], ..request.clone() },
+    ] {
+        assert!(!name(core.as_mut(), &bad).success, "{bad:?}");
+    }
 }
