@@ -32,12 +32,12 @@ def peer(starts, ends):
     simulation = pyrvo.RVOSimulator()
     simulation.set_time_step(TICK)
     # Neighbours as far as two robots can meet within the horizon of 2 s.
-    simulation.set_agent_defaults(2.0 * SPEED * 2.0 + 0.22, 10, 2.0, 2.0, 0.11, SPEED, pyrvo.Vector2(0.0, 0.0))
+    simulation.set_agent_defaults(2.0 * SPEED * 2.0 + 0.22, 10, 2.0, 2.0, 0.11, SPEED, (0.0, 0.0))
     for index, ((x, y), (to_x, to_y)) in enumerate(zip(starts, ends)):
-        simulation.add_agent(pyrvo.Vector2(x, y))
+        simulation.add_agent((x, y))
         way = (to_x - x, to_y - y)
         length = max((way[0] ** 2 + way[1] ** 2) ** 0.5, SPEED)
-        wanted = pyrvo.Vector2(SPEED * way[0] / length, SPEED * way[1] / length)
+        wanted = (SPEED * way[0] / length, SPEED * way[1] / length)
         simulation.set_agent_pref_velocity(index, wanted)
     best = float("inf")
     for run in range(16):
