@@ -2,9 +2,11 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #[path = "chapter7/chain.rs"]
 mod chain;
+mod threads;
 
 use chain::chain_of_7_10;
 use nalgebra::Vector2;
+use threads::Threads;
 use trench_formation::curve::{Curve, CurveShape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::Capability;
@@ -41,7 +43,7 @@ fn end(simulation: ChainSimulation<Hyperbolic>) -> Vec<PointState> {
 
 #[test]
 fn one_thread_or_several() {
-    let run = |threads| end(ChainSimulation::new(many()).unwrap().on_threads(threads));
+    let run = |threads| end(ChainSimulation::new(many()).unwrap().with(Threads(threads)));
     let alone = run(1);
     assert_eq!(alone, run(2));
     assert_eq!(alone, run(5));

@@ -3,9 +3,12 @@
 #![expect(clippy::print_stdout, reason = "the figures are the purpose")]
 #[path = "../peers/output.rs"]
 mod output;
+#[path = "../../tests/threads/mod.rs"]
+mod threads;
 
 use output::{Output, random};
 use std::error::Error;
+use threads::Threads;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape};
 use trench_formation::hull::{Obstacle, Shape};
@@ -82,7 +85,7 @@ fn measure(
     threads: usize,
 ) -> Result<Vec<PointState>, Box<dyn Error>> {
     let count = scenario.robots.len();
-    let mut simulation = ChainSimulation::new(scenario.clone())?.on_threads(threads);
+    let mut simulation = ChainSimulation::new(scenario.clone())?.with(Threads(threads));
     let name = format!("crowd: {count} robots, {threads} threads");
     let mut failed = Ok(());
     output.time(&name, 15, STEPS * count, || {

@@ -1,13 +1,15 @@
 //! Stepping a chain.
 use super::vicinity::Vicinity;
+use super::workers::{Alone, Share, Workers};
 use super::{ChainScenario, Encroaching, ScenarioError};
 use crate::Vector2;
 use crate::agent::{Action, Agent, Leader, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
 use crate::trench::Trench;
+use std::sync::Arc;
 
-/// Robots below which a share is not worth a thread of its own.
+/// Robots below which a share is not worth a worker of its own.
 const LEAST_SHARE: usize = 64;
 
 /// A chain under way.
@@ -27,7 +29,7 @@ pub struct ChainSimulation<T> {
     seen_deviations: Vec<f64>,
     pub(super) actions: Vec<Action>,
     vicinity: Vicinity,
-    threads: usize,
+    workers: Arc<dyn Workers + Send + Sync>,
     pub(super) steps: u64,
 }
 
@@ -57,7 +59,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             seen_deviations: vec![f64::INFINITY; count],
             actions: Vec::with_capacity(count),
             vicinity: Vicinity::default(),
-            threads: 1,
+            workers: Arc::new(Alone),
             steps: 0,
             scenario,
         };
@@ -86,27 +88,19 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             vicinity: &self.vicinity,
         };
         self.actions.clear();
-        // Until the next tick nobody sees what the others do, so the order in which they act, and on how many threads, is nothing.
-        let size = robots.len().div_ceil(self.threads).max(LEAST_SHARE);
+        // Until the next tick nobody sees what the others do, so the order in which they act, and who works at it, is nothing.
+        let size = robots.len().div_ceil(self.workers.count().max(1)).max(LEAST_SHARE);
         if size >= robots.len() {
             view.act(0, agents, robots, since, &mut self.actions);
         } else {
-            let done = std::thread::scope(|scope| {
-                let mut running = Vec::new();
-                for (share, (agents, robots)) in agents.chunks_mut(size).zip(robots.chunks_mut(size)).enumerate() {
-                    let view = &view;
-                    running.push(scope.spawn(move || {
-                        let mut actions = Vec::with_capacity(agents.len());
-                        view.act(share * size, agents, robots, since, &mut actions);
-                        actions
-                    }));
-                }
-                running.into_iter().map(std::thread::ScopedJoinHandle::join).collect::<Vec<_>>()
+            let mut done = vec![Vec::new(); robots.len().div_ceil(size)];
+            let team = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(&mut done);
+            let shares = team.enumerate().map(|(share, ((agents, robots), actions))| -> Share<'_> {
+                let view = &view;
+                Box::new(move || view.act(share * size, agents, robots, since, actions))
             });
-            for actions in done {
-                // A panic of a share is one of the simulation.
-                self.actions.extend(actions.unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-            }
+            self.workers.run(shares.collect());
+            self.actions.extend(done.into_iter().flatten());
         }
         for (deviation, action) in self.deviations.iter_mut().zip(&self.actions) {
             if action.deviation.is_finite() {
@@ -117,10 +111,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         Ok(())
     }
 
-    /// Lets the robots' controllers run on up to `threads` threads. The motion is the same, bit for bit.
+    /// Lets others do the work of the robots' controllers. The motion is the same, bit for bit.
     #[must_use]
-    pub fn on_threads(self, threads: usize) -> Self {
-        Self { threads: threads.max(1), ..self }
+    pub fn with(self, workers: impl Workers + Send + Sync + 'static) -> Self {
+        Self { workers: Arc::new(workers), ..self }
     }
 
     /// What happens once a tick.

@@ -15,6 +15,7 @@ mod random;
 mod regulation;
 mod scenario;
 mod vicinity;
+mod workers;
 mod zoned_chain;
 
 pub use crate::agent::{Encroaching, Remedies};
@@ -26,4 +27,5 @@ pub use judge::{Standard, Verdict, judge};
 pub use random::{BODY_RADIUS, CAPABILITY, random_team};
 pub use regulation::Regulation;
 pub use scenario::{ChainScenario, Options, ScenarioError};
+pub use workers::{Alone, Share, Workers};
 pub use zoned_chain::{ZonedChain, ZonedChainScenario};
