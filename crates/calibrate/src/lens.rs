@@ -88,9 +88,12 @@ pub fn fit_lens(
     Ok(FittedLens { lens, deviations, rms: libm::sqrt(total / pairs.len() as f64), residuals })
 }
 
+/// What the squares of the tilts' sines must be on average to tell the focal length: 6 degrees.
+const TILTED: f64 = 0.01;
+
 /// The focal length, pixels, that makes the boards' axes perpendicular and equally long; None where nothing is tilted.
 fn focal_length(maps: &[Matrix3<f64>]) -> Option<f64> {
-    let (mut top, mut bottom, mut size) = (0.0, 0.0, 0.0);
+    let (mut top, mut bottom) = (0.0, 0.0);
     for map in maps {
         let map = map / map.column(0).norm();
         let (h1, h2) = (map.column(0), map.column(1));
@@ -98,12 +101,13 @@ fn focal_length(maps: &[Matrix3<f64>]) -> Option<f64> {
         let perpendicular = (h1.x * h2.x + h1.y * h2.y, h1.z * h2.z);
         let equal = (h1.x * h1.x + h1.y * h1.y - h2.x * h2.x - h2.y * h2.y, h1.z * h1.z - h2.z * h2.z);
         for (a, b) in [perpendicular, equal] {
-            (top, bottom, size) = (top - a * b, bottom + a * a, size + b * b);
+            (top, bottom) = (top - a * b, bottom + a * a);
         }
     }
     let inverse = top / bottom;
-    // Boards that all face the camera leave both equations empty.
-    (inverse > 0.0 && size > 1e-12).then(|| libm::sqrt(1.0 / inverse)).filter(|focal| focal.is_finite())
+    // Boards that all face the camera leave both equations empty: a is the square of a tilt's sine.
+    let is_tilted = bottom > TILTED * TILTED * maps.len() as f64;
+    (inverse > 0.0 && is_tilted).then(|| libm::sqrt(1.0 / inverse)).filter(|focal| focal.is_finite())
 }
 
 /// Rotation and position of a board in the camera's frame, from its homography.
