@@ -31,7 +31,7 @@ const HEADING_ERROR: (f64, f64) = (0.03, 0.4);
 pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
     use ParameterDescriptor as P;
     vec![
-        P::double("monitor.window", 0.8, "s, over which the Lyapunov function is watched").range(0.1, 60.0),
+        P::double("monitor.window", 0.6, "s, over which the Lyapunov function is watched").range(0.1, 60.0),
         P::double("monitor.patience", 0.1, "s, beyond its bound before that counts as a violation").range(0.0, 60.0),
         P::double("monitor.pose_error", 0.008, "m, by which a pose may be off").range(0.0, 10.0),
         P::double("monitor.speed_error", 0.04, "m/s, by which a robot may miss its command").range(0.0, 10.0),
