@@ -224,7 +224,7 @@ def main() -> None:
             print(f"{run['name']:12} {', '.join(fault['name'] for fault in run['faults'])}")
         return
     if not arguments.table:
-        os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
+        os.environ.setdefault("ROS_DOMAIN_ID", str(1 + os.getpid() % 100))
         failed = False
         for run in chosen(runs, arguments):
             for verdict in conduct(run, arguments.binaries, arguments.seed):
