@@ -14,7 +14,7 @@ const NODES: [&str; 6] =
     ["/leader_assignment", "/obstacle_mapper", "/operator", "/overhead_localizer", "/rf_bridge", "/testbed"];
 
 /// Topic (`*` is each robot), type, publishers, subscribers.
-const TOPICS: [(&str, &str, &str, &str); 30] = [
+const TOPICS: [(&str, &str, &str, &str); 32] = [
     ("/overhead/image_raw", "sensor_msgs/msg/Image", "/testbed", "/overhead_localizer"),
     ("/overhead/camera_info", "sensor_msgs/msg/CameraInfo", "/testbed", ""),
     ("/ground_truth/*/odom", "nav_msgs/msg/Odometry", "/testbed", ""),
@@ -22,13 +22,15 @@ const TOPICS: [(&str, &str, &str, &str); 30] = [
     ("/team_state", "trench_msgs/msg/TeamState", "/overhead_localizer", "/leader_assignment /operator CONTROLLERS"),
     ("/*/odom", "nav_msgs/msg/Odometry", "/overhead_localizer", ""),
     ("/tf", "tf2_msgs/msg/TFMessage", "/overhead_localizer", ""),
+    ("/identify", "trench_msgs/msg/Identify", "/overhead_localizer", "/rf_bridge CONTROLLERS"),
+    ("/loop_delay", "std_msgs/msg/Float64", "/overhead_localizer", "CONTROLLERS"),
     ("/target", "nav_msgs/msg/Odometry", "", "/leader_assignment"),
     ("/set_formation", "trench_msgs/msg/Formation", "", "/leader_assignment"),
     ("/formation", "trench_msgs/msg/Formation", "/leader_assignment", "CONTROLLERS"),
     ("/assignment", "trench_msgs/msg/Assignment", "/leader_assignment", "CONTROLLERS"),
     ("/goals", "trench_msgs/msg/Goals", "/leader_assignment", "/operator CONTROLLERS"),
     ("/run_state", "trench_msgs/msg/RunState", "/leader_assignment", "/operator /rf_bridge CONTROLLERS"),
-    ("/*/leader_state", "trench_msgs/msg/LeaderState", "/*/formation_controller", "CONTROLLERS"),
+    ("/*/leader_state", "trench_msgs/msg/LeaderState", "/*/formation_controller", "/leader_assignment CONTROLLERS"),
     ("/*/stability", "trench_msgs/msg/Stability", "/*/formation_controller", ""),
     ("/*/cmd_vel", "geometry_msgs/msg/TwistStamped", "/*/formation_controller", "/rf_bridge"),
     ("/obstacles", "trench_msgs/msg/ObstacleArray", "", "/obstacle_mapper"),
@@ -39,7 +41,7 @@ const TOPICS: [(&str, &str, &str, &str); 30] = [
         "/leader_assignment /obstacle_mapper /overhead_localizer CONTROLLERS",
         "",
     ),
-    ("/*/link", "trench_msgs/msg/LinkStatus", "/rf_bridge", ""),
+    ("/*/link", "trench_msgs/msg/LinkStatus", "/rf_bridge", "/leader_assignment /*/formation_controller"),
     ("/*/battery_state", "sensor_msgs/msg/BatteryState", "/rf_bridge", ""),
     ("/*/wheel_odom", "nav_msgs/msg/Odometry", "/rf_bridge", ""),
     ("/*/range_0", "sensor_msgs/msg/Range", "/rf_bridge", ""),

@@ -26,6 +26,7 @@ mod stream;
 mod timer;
 mod topics;
 mod transport;
+mod watchdog;
 
 pub use exit::Exit;
 pub use run::{run, run_alone, run_with_arguments, run_without_journal};

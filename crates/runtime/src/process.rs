@@ -8,6 +8,7 @@ use crate::topics::Topics;
 use crate::transport::network::{GraphChange, GraphWatch, Network};
 use crate::transport::shared_memory::Host;
 use crate::transport::{Backend, TransportError};
+use crate::watchdog::Watchdog;
 use rustdds::mio1::{Events, Interest, Poll, Token};
 use std::io;
 use std::time::{Duration, Instant};
@@ -21,6 +22,9 @@ const OWN_TOKENS: usize = 3;
 
 /// How soon messages that the network did not take are offered again.
 const FLUSH_SECONDS: f64 = 0.002;
+
+/// How long the network may take to close.
+const LEAVING: Duration = Duration::from_secs(3);
 
 /// How long last words have to leave.
 const LAST_WORDS: Duration = Duration::from_millis(200);
@@ -104,6 +108,8 @@ impl Process {
             }
         };
         self.end();
+        let _leaving = Watchdog::new(LEAVING, code, "the network did not let go");
+        drop(self);
         Ok(code)
     }
 

@@ -11,8 +11,10 @@ use crate::node::{Equipment, connect};
 use crate::parameters::ParameterServer;
 use crate::process::Process;
 use crate::transport::{Backend, TransportError, full_name};
+use crate::watchdog::Watchdog;
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::process::ExitCode;
+use std::time::Duration;
 use std::{env, io};
 use trench_config::params::USE_SIM_TIME;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
@@ -124,6 +126,8 @@ fn try_run(
     if prepared.len() > 1 {
         raise_file_limit();
     }
+    let patience = OPENING + OPENING_ONE * u32::try_from(prepared.len()).unwrap_or(u32::MAX);
+    let opening = Watchdog::new(patience, Exit::Transport as u8, "the network did not open all topics");
     let mut process = Process::new(backend, domain)?;
     let mut leases = Vec::new();
     for Prepared { core, names, equipment, lease } in prepared {
@@ -133,10 +137,15 @@ fn try_run(
         process.nodes.push(node);
     }
     process.network.announce()?;
+    drop(opening);
     let code = process.run()?;
     drop(leases);
     Ok(code)
 }
+
+/// How long the network may take to open, for the process and for each of its nodes.
+const OPENING: Duration = Duration::from_secs(8);
+const OPENING_ONE: Duration = Duration::from_secs(2);
 
 /// A node that is not connected yet.
 struct Prepared<'a> {
