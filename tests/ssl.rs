@@ -1,5 +1,4 @@
 //! `trench ssl log` as people call it.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::process::Command;
 use trench_ssl::{Seen, Team, VISION, packet_of};
