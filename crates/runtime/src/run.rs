@@ -144,7 +144,7 @@ fn try_run(
 }
 
 /// How long the network may take to open, for the process and for each of its nodes.
-const OPENING: Duration = Duration::from_secs(3);
+const OPENING: Duration = Duration::from_secs(8);
 const OPENING_ONE: Duration = Duration::from_secs(1);
 
 /// A node that is not connected yet.

@@ -1,8 +1,7 @@
 //! Ends a process that the network holds fast.
 //!
-//! RustDDS 0.15.1 locks up now and then when many endpoints are found at once: its discovery thread waits for room in a
-//! channel of 32 places while it holds the lock that the other thread needs to take anything out. Opening an endpoint or
-//! leaving then takes for ever, and no signal is heard. A process that ends can be started again.
+//! Opening endpoints and leaving go through threads of the network's library, which no signal reaches. `transport/dds/pause.rs`
+//! keeps from the one lock-up of RustDDS that is known. A process that ends can be started again, whatever held it.
 
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;

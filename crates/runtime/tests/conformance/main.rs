@@ -6,6 +6,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 #[cfg(test)]
+mod crowd;
+#[cfg(test)]
 mod modes;
 #[cfg(test)]
 mod router;

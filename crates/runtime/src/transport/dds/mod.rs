@@ -8,6 +8,7 @@ mod client;
 mod graph;
 mod name;
 mod participant;
+mod pause;
 mod qos;
 mod raw;
 mod reader;

@@ -1,6 +1,7 @@
 //! A process's place on the network: one DDS participant for all its nodes.
 
 use super::graph::{Endpoint, Graph};
+use super::pause::Pause;
 use super::raw::{RawAdapter, RawMessage};
 use super::status::StatusReader;
 use super::{DdsClient, DdsName, DdsReader, DdsServer, DdsWriter, qos};
@@ -20,22 +21,38 @@ use trench_msgs::ServiceInfo;
 
 /// The participant and what its nodes own.
 pub(crate) struct Participant {
+    /// Before the participant: this is dropped first, or the participant would wait for a thread that stands still.
+    opening: Option<Opening>,
     participant: DomainParticipant,
     publisher: Publisher,
     subscriber: Subscriber,
     graph: Graph,
 }
 
+/// While endpoints are opened.
+struct Opening {
+    _pause: Pause,
+    /// How many were opened in this pause.
+    endpoints: usize,
+}
+
+/// How many endpoints may be opened in one pause of discovery: RustDDS keeps 1024 notes of what it has to announce, two for
+/// each endpoint, and forgets what is above.
+const AT_ONCE: usize = 200;
+/// How long discovery then works off these notes.
+const BREATH: Duration = Duration::from_millis(30);
+
 impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
         let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
+        let opening = Some(Opening { _pause: Pause::begin(), endpoints: 0 });
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;
         let graph = Graph::new(&participant, &publisher)?;
-        Ok(Self { participant, publisher, subscriber, graph })
+        Ok(Self { opening, participant, publisher, subscriber, graph })
     }
 
     /// Changes of the ROS graph, for the event loop.
@@ -57,6 +74,7 @@ impl Participant {
         name: &DdsName,
         qos: QosPolicies,
     ) -> Result<DataWriter<RawMessage, RawAdapter>, TransportError> {
+        self.breathe();
         let topic = self.topic(name, &qos)?;
         let writer = patiently(|| self.publisher.create_datawriter_no_key(&topic, Some(qos.clone())))
             .map_err(|error| TransportError::endpoint(&name.topic, &error))?;
@@ -70,11 +88,25 @@ impl Participant {
         name: &DdsName,
         qos: QosPolicies,
     ) -> Result<SimpleDataReader<RawMessage, RawAdapter>, TransportError> {
+        self.breathe();
         let topic = self.topic(name, &qos)?;
         let reader = patiently(|| self.subscriber.create_simple_datareader_no_key(&topic, Some(qos.clone())))
             .map_err(|error| TransportError::endpoint(&name.topic, &error))?;
         self.graph.add(node, Endpoint::Reader(reader.guid()));
         Ok(reader)
+    }
+
+    /// Lets discovery go on for a moment where much was opened.
+    fn breathe(&mut self) {
+        let Some(opening) = &mut self.opening else { return };
+        opening.endpoints += 1;
+        if opening.endpoints > AT_ONCE {
+            self.opening = None;
+            std::thread::sleep(BREATH);
+            let pause = Pause::begin();
+            pause.wait(BREATH);
+            self.opening = Some(Opening { _pause: pause, endpoints: 0 });
+        }
     }
 
     fn topic(&self, name: &DdsName, qos: &QosPolicies) -> Result<Topic, TransportError> {
@@ -109,8 +141,10 @@ impl Network for Participant {
         self.graph.add_node(namespace, name)
     }
 
-    fn announce(&self) -> Result<(), TransportError> {
-        self.graph.announce()
+    fn announce(&mut self) -> Result<(), TransportError> {
+        self.graph.announce()?;
+        self.opening = None;
+        Ok(())
     }
 
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {

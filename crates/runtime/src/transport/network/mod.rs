@@ -59,7 +59,7 @@ pub(crate) trait Network {
     fn add_node(&mut self, namespace: &str, name: &str) -> Result<(), TransportError>;
 
     /// Tells the ROS graph about all nodes and endpoints made so far.
-    fn announce(&self) -> Result<(), TransportError>;
+    fn announce(&mut self) -> Result<(), TransportError>;
 
     /// Opens a topic for writing.
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError>;

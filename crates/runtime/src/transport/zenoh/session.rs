@@ -118,7 +118,7 @@ impl Network for Session {
     }
 
     /// Tokens have told the graph already.
-    fn announce(&self) -> Result<(), TransportError> {
+    fn announce(&mut self) -> Result<(), TransportError> {
         Ok(())
     }
 
