@@ -139,6 +139,8 @@ fn live_square_in_two_browsers() {
 
     // Held, the picture stands still; then it goes on with what was missed.
     early.ask("document.getElementById('pause').click()");
+    // What was about to be drawn when the button was pressed still is.
+    std::thread::sleep(std::time::Duration::from_millis(200));
     let frames = "Number(document.body.dataset.frames)";
     let held = early.ask(frames);
     std::thread::sleep(std::time::Duration::from_millis(500));

@@ -1,15 +1,9 @@
 //! `list_parameters`: names below prefixes, down to a depth.
 
 use std::collections::BTreeSet;
-use trench_msgs::Encode;
 use trench_msgs::rcl_interfaces::{ListParametersRequest, ListParametersResult};
 
-/// What one datagram of an Ethernet surely takes, bytes. RustDDS 0.15.1 garbles longer responses: it writes the inline
-/// QoS that says whose answer it is one byte too long into fragments.
-const DATAGRAM: usize = 1232;
-
-/// The names that a request asks for, with the prefixes they stand under. Where both do not fit into a datagram, the
-/// prefixes, which can be read off the names, are left out.
+/// The names that a request asks for, with the prefixes they stand under.
 pub(super) fn list<'a>(names: impl Iterator<Item = &'a str>, request: &ListParametersRequest) -> ListParametersResult {
     let wanted = names.filter(|name| is_wanted(name, request));
     let mut result = ListParametersResult::default();
@@ -21,9 +15,6 @@ pub(super) fn list<'a>(names: impl Iterator<Item = &'a str>, request: &ListParam
         result.names.push(name.to_owned());
     }
     result.prefixes = prefixes.into_iter().collect();
-    if result.to_cdr().len() > DATAGRAM {
-        result.prefixes.clear();
-    }
     result
 }
 
@@ -60,11 +51,5 @@ mod tests {
         check(&["gains.deep", "a"], 0, &["a", "gains.deep.k3"]);
         let all = list(names.iter().copied(), &ListParametersRequest::default());
         assert_eq!(all.prefixes, ["gains", "gains.deep"]);
-    }
-    #[test]
-    fn what_does_not_fit_a_datagram_has_no_prefixes() {
-        let names: Vec<String> = (0..70).map(|number| format!("group{number}.x")).collect();
-        let result = list(names.iter().map(String::as_str), &ListParametersRequest::default());
-        assert_eq!((result.names.len(), result.prefixes.len()), (70, 0));
     }
 }

@@ -6,6 +6,7 @@
 
 mod client;
 mod graph;
+mod long;
 mod name;
 mod participant;
 mod pause;

@@ -1,5 +1,6 @@
 //! The serving end of a service, in the "enhanced" mapping of DDS-RPC that ROS 2's Fast DDS uses.
 
+use super::long;
 use super::reader::DdsReader;
 use super::writer::{DdsWriter, LONGEST_RELATED, gid};
 use crate::transport::network::{Gid, NetworkReader, NetworkWriter, NotSent, PendingRequest, ServiceServer};
@@ -8,6 +9,7 @@ use rustdds::mio1::{Interest, Registry, Token, event};
 use rustdds::{DomainParticipant, GUID, SampleIdentity, SequenceNumber};
 use std::collections::BTreeSet;
 use std::io;
+use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 /// How long a response waits for its client's reader to be discovered: requests can come before it.
@@ -35,21 +37,31 @@ impl DdsServer {
     }
 
     fn send(&mut self, request: SampleIdentity, response: Bytes) -> Result<(), NotSent> {
-        if response.len() > LONGEST_RELATED && !self.all_read_on_loopback() {
-            return Err(NotSent::TooLong(response.len()));
-        }
-        self.responses.write_related(response, request).map(|_| ()).map_err(|_congested| NotSent::Congested)
+        let written = if response.len() > LONGEST_RELATED {
+            self.send_long(request, &response)?;
+            self.responses.write(Bytes::from_static(long::PLACEHOLDER))
+        } else {
+            self.responses.write_related(response, request)
+        };
+        written.map(|_| ()).map_err(|_congested| NotSent::Congested)
     }
 
-    /// Whether all readers of the responses announce loopback alone, whose datagrams hold 64 kB. A response goes to all.
-    fn all_read_on_loopback(&self) -> bool {
-        let found = self.participant.discovered_readers();
-        self.readers.iter().all(|reader| {
-            let mut found = found.iter().map(|found| &found.reader_proxy);
-            let found = found.find(|found| gid(found.remote_reader_guid) == *reader);
-            let places = found.map(|found| &found.unicast_locator_list[..]).unwrap_or_default();
-            !places.is_empty() && places.iter().all(|place| place.is_loopback())
-        })
+    /// Sends what does not fit a datagram of an Ethernet to the client alone, as the next message of our writer.
+    fn send_long(&self, request: SampleIdentity, response: &Bytes) -> Result<(), NotSent> {
+        if response.len() > long::LONGEST {
+            return Err(NotSent::TooLong(response.len()));
+        }
+        let number = self.responses.next_number().ok_or(NotSent::Congested)?;
+        let sample = long::Sample { writer: self.responses.guid(), number, related: request, cdr: response };
+        for found in self.participant.discovered_readers() {
+            let reader = found.reader_proxy.remote_reader_guid;
+            if self.readers.contains(&gid(reader)) && reader.prefix == request.writer_guid.prefix {
+                let places = found.reader_proxy.unicast_locator_list.into_iter().filter(|place| place.is_udp());
+                long::send(&sample, reader, places.map(SocketAddr::from))
+                    .map_err(|error| NotSent::Network(error.kind()))?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether the client's process has a reader of our responses.

@@ -17,9 +17,9 @@ const WAITING: usize = 8192;
 /// can read them.
 const LONGEST_COUNTED: usize = 1024;
 
-/// The longest message that can say which request it answers, bytes: RustDDS 0.15.1 cuts up what is longer than 1452 bytes
+/// The longest message that can say which request it answers in the ordinary way, bytes: RustDDS 0.15.1 cuts up what is longer than 1452 bytes
 /// less heartbeat (32) and header (48) where a reader announces an Ethernet address. The request, too, is said in inline
-/// quality of service.
+/// quality of service. For longer ones see [`super::long`].
 pub(super) const LONGEST_RELATED: usize = 1372;
 
 /// Writes messages in order and never blocks: what the send window does not take waits here.
@@ -47,6 +47,11 @@ impl DdsWriter {
         self.accepted += 1;
         self.flush();
         Ok(self.accepted)
+    }
+
+    /// The count of the message that is written next; none while others wait before it.
+    pub(super) fn next_number(&self) -> Option<u64> {
+        self.waiting.is_empty().then_some(self.accepted + 1)
     }
 
     pub(crate) fn guid(&self) -> GUID {

@@ -38,12 +38,12 @@ pub(crate) enum NotSent {
     /// The clients acknowledge nothing any more.
     #[error("its clients are more than 8192 responses behind")]
     Congested,
-    /// RustDDS 0.15.1 would cut it up and garble it.
-    #[error(
-        "its {0} bytes need more than one datagram: ask for less at once, or announce loopback alone \
-         (FASTDDS_DEFAULT_PROFILES_FILE=config/fastdds_loopback.xml)"
-    )]
+    /// More than a datagram takes.
+    #[error("its {0} bytes are more than a datagram takes, 65000: ask for less at once")]
     TooLong(usize),
+    /// The host's network refuses it.
+    #[error("the network refuses it: {0}")]
+    Network(std::io::ErrorKind),
 }
 
 /// Whom to answer: the client and its count of the request.
