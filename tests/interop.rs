@@ -263,10 +263,10 @@ fn foreign_messages_do_not_lead_astray(island: &Island, team: &Follower, launch:
     commands.say(r#"{"twist": {"linear": {"x": NaN}, "angular": {"z": Infinity}}}"#);
     diagnosed("a command for robot1 was dropped: another publisher commands this robot");
     commands.say(r#"{"twist": {"linear": {"x": -0.25}, "angular": {"z": 3.0}}}"#);
-    // Poses that are no numbers stop who believes them, for as long as they last.
+    // Poses are the localizer's: a second publisher is not believed, nonsense or not.
     let mut poses = island.publisher("/team_state trench_msgs/msg/TeamState --rate 15 --stamp");
     poses.say(&nowhere());
-    diagnosed("resting: the law gave a number that is not finite");
+    diagnosed("/team_state was dropped: another publisher writes this topic");
     drop(poses);
     let mut obstacles = island.publisher("/obstacles trench_msgs/msg/ObstacleArray");
     obstacles.say(r#"{"obstacles": [{"id": 7, "radius": 0.1, "polygon": [{"x": NaN, "y": 0.5}]}]}"#);
