@@ -62,7 +62,19 @@ impl Launch {
             .output()
             .unwrap();
         let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+        self.left_nothing_behind();
         (output.status, worst_first(&text))
+    }
+
+    /// What a launch has used is free again once it has ended: the serial port's link and shared memory, but for the few
+    /// bytes in which iceoryx2 counts the nodes of a prefix.
+    fn left_nothing_behind(&self) {
+        let port = self.folder.path().join("port");
+        assert!(port.symlink_metadata().is_err(), "{} is still there", port.display());
+        let names =
+            std::fs::read_dir("/dev/shm").unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let ours = names.filter(|name| name.contains(&self.shared_memory()) && !name.ends_with(".global_mgmt"));
+        assert_eq!(ours.collect::<Vec<_>>(), Vec::<String>::new(), "shared memory is left");
     }
 
     pub(crate) fn judge(&self, shape_times: &[f64]) -> RunSummary {

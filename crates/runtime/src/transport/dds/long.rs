@@ -109,7 +109,8 @@ mod tests {
     #[test]
     fn the_message_is_as_the_standard_writes_it() {
         let guid = |first: u8| GUID::from_bytes(std::array::from_fn(|index| first + index as u8));
-        let related = SampleIdentity { writer_guid: guid(0x60), sequence_number: SequenceNumber::from(0x1_0000_0002_i64) };
+        let related =
+            SampleIdentity { writer_guid: guid(0x60), sequence_number: SequenceNumber::from(0x1_0000_0002_i64) };
         let sample = Sample { writer: guid(0x20), number: 7, related, cdr: &[0, 1, 0, 0, 9] };
         let bytes = message(&sample, guid(0x40));
         let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
