@@ -50,22 +50,32 @@ class Ears:
             rclpy.try_shutdown()
 
 
-def _publish(ears: Ears, kind, topic: str, make, seconds: float) -> None:
+def _found(ears: Ears, kind, topic: str):
+    """A publisher that others have found: before, it can do neither harm nor good."""
     publisher = ears.node.create_publisher(kind, topic, 10)
-    # A writer must be found before it can do harm.
-    time.sleep(0.5)
-    end = time.monotonic() + seconds
+    deadline = time.monotonic() + 5.0
+    while publisher.get_subscription_count() < 1 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    # Readers find it when it has found them, or a little later.
+    time.sleep(0.3)
+    return publisher
+
+
+def _publish(ears: Ears, kind, topic: str, make, seconds: float) -> float:
+    publisher = _found(ears, kind, topic)
+    began, end = time.time(), time.monotonic() + seconds
     while time.monotonic() < end:
         publisher.publish(make())
         time.sleep(1.0 / RATE)
     ears.node.destroy_publisher(publisher)
+    return began
 
 
 def _now(ears: Ears):
     return ears.node.get_clock().now().to_msg()
 
 
-def foreign_command(ears: Ears, seconds: float) -> None:
+def foreign_command(ears: Ears, seconds: float) -> float:
     """Somebody else drives robot1, fast."""
     from geometry_msgs.msg import TwistStamped
 
@@ -75,10 +85,10 @@ def foreign_command(ears: Ears, seconds: float) -> None:
         command.twist.linear.x = 0.25
         return command
 
-    _publish(ears, TwistStamped, "/robot1/cmd_vel", make, seconds)
+    return _publish(ears, TwistStamped, "/robot1/cmd_vel", make, seconds)
 
 
-def nan_team_state(ears: Ears, seconds: float) -> None:
+def nan_team_state(ears: Ears, seconds: float) -> float:
     """Somebody else says where robots are: nowhere."""
     from trench_msgs.msg import RobotState, TeamState
 
@@ -91,10 +101,10 @@ def nan_team_state(ears: Ears, seconds: float) -> None:
             team.robots.append(robot)
         return team
 
-    _publish(ears, TeamState, "/team_state", make, seconds)
+    return _publish(ears, TeamState, "/team_state", make, seconds)
 
 
-def nan_goals(ears: Ears, seconds: float) -> None:
+def nan_goals(ears: Ears, seconds: float) -> float:
     """Somebody else says where robots go: nowhere."""
     from trench_msgs.msg import Goal, Goals
 
@@ -107,10 +117,10 @@ def nan_goals(ears: Ears, seconds: float) -> None:
             goals.goals.append(goal)
         return goals
 
-    _publish(ears, Goals, "/goals", make, seconds)
+    return _publish(ears, Goals, "/goals", make, seconds)
 
 
-def garbage_udp(ears: Ears, seconds: float) -> None:
+def garbage_udp(ears: Ears, seconds: float) -> float:
     """Noise on every DDS port of the domain that a participant may have, half of it behind an RTPS header."""
     del ears
     chance = random.Random(1)
@@ -118,21 +128,23 @@ def garbage_udp(ears: Ears, seconds: float) -> None:
     ports = [base, base + 1, *range(base + 10, base + 60)]
     header = b"RTPS\x02\x04\x01\x12" + bytes(12)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-        end = time.monotonic() + seconds
+        began, end = time.time(), time.monotonic() + seconds
         while time.monotonic() < end:
             for port in ports:
                 noise = chance.randbytes(chance.randrange(1, 1400))
                 sender.sendto(header + noise if chance.random() < 0.5 else noise, ("127.0.0.1", port))
             time.sleep(0.005)
+    return began
 
 
-def emergency_stop(ears: Ears, seconds: float) -> None:
+def emergency_stop(ears: Ears, seconds: float) -> float:
     """An emergency stop, which is taken back and reset."""
     import rclpy
     from std_msgs.msg import Bool
     from std_srvs.srv import Trigger
-    publisher = ears.node.create_publisher(Bool, "/emergency_stop", 10)
-    end = time.monotonic() + seconds
+
+    publisher = _found(ears, Bool, "/emergency_stop")
+    began, end = time.time(), time.monotonic() + seconds
     while time.monotonic() < end:
         publisher.publish(Bool(data=True))
         time.sleep(1.0 / RATE)
@@ -144,8 +156,10 @@ def emergency_stop(ears: Ears, seconds: float) -> None:
     answer = client.call_async(Trigger.Request())
     rclpy.spin_until_future_complete(ears.node, answer, timeout_sec=2.0)
     ears.node.destroy_publisher(publisher)
+    return began
 
 
+# Each gives when it began, s, wall clock.
 INJECTIONS = {
     function.__name__: function
     for function in (foreign_command, nan_team_state, nan_goals, garbage_udp, emergency_stop)

@@ -114,8 +114,11 @@ def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float
     """Does what a fault says; gives when it began and was over (s, wall clock)."""
     began = time.time()
     if "kill" in fault:
+        others = list(launched.processes().values())
         os.kill(launched.pid_of(fault["kill"]), signal.SIGKILL)
         began = ended = time.time()
+        if fault.get("ends"):
+            fault["alive_after"] = outlive(others)
         if not (fault.get("gone") or fault.get("ends")):
             # Over when the victim lives again.
             text = launched.log()
@@ -142,8 +145,24 @@ def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float
         time.sleep(fault["for"])
         os.kill(pid, signal.SIGCONT)
         return began, time.time()
-    inject.INJECTIONS[fault["publish"]](ears, fault["for"])
+    began = inject.INJECTIONS[fault["publish"]](ears, fault["for"])
     return began, time.time()
+
+
+def lives(pid: int) -> bool:
+    """Whether a process runs: one that has ended and waits for its parent does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def outlive(pids: list[int]) -> float:
+    """How long the last of these lives on, s; gives up after ten."""
+    begun = time.monotonic()
+    while any(map(lives, pids)) and time.monotonic() < begun + 10.0:
+        time.sleep(0.01)
+    return time.monotonic() - begun
 
 
 def conduct(run: dict, binaries: Path, seed: int) -> list[judge.Verdict]:
@@ -168,14 +187,9 @@ def conduct(run: dict, binaries: Path, seed: int) -> list[judge.Verdict]:
             memory.append(launched.memory())
     finally:
         ears.close()
-        survivors = launched.processes()
-        killed_at = time.monotonic()
         code = launched.end()
-    alive_after = None
-    if any(fault.get("ends") for fault in run["faults"]):
-        while any(Path(f"/proc/{pid}").exists() for pid in survivors.values()) and time.monotonic() < killed_at + 10.0:
-            time.sleep(0.02)
-        alive_after = time.monotonic() - killed_at
+    lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
+    alive_after = max(lived, default=None)
     subprocess.run(["bash", "-c", f"rm -f /dev/shm/{launched.environment['TRENCH_SHM_PREFIX']}*"], check=False)
     evidence = judge.Evidence(
         bag=folder / "bag", log=launched.log(), exit_code=code, memory=memory, alive_after=alive_after,

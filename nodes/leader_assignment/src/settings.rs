@@ -34,7 +34,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             .range(0.1, 3600.0),
         P::double("age.link", 0.5, "s, for which a follower may not hear its leader before it follows its goal")
             .range(0.1, 3600.0),
-        P::double("dwell", 2.0, "s, for which robot or link must be good to count again; doubles with each loss")
+        P::double("dwell", 1.5, "s, for which robot or link must be good to count again; doubles with each loss")
             .range(0.1, 3600.0),
         P::double("age.target", 0.5, "s, silence of /target after which a formation in its frame stops")
             .range(0.001, 60.0),

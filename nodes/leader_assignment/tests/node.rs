@@ -389,7 +389,7 @@ fn who_does_not_hear_its_leader_follows_nobody_until_it_does() {
     bench.live(0.5, &deaf, &[]);
     let broken = names(&[("robot2", ""), ("robot1", ""), ("robot4", ""), ("robot3", "robot4")]);
     assert_eq!(bench.chains(), broken);
-    bench.live(1.5, &EVERYBODY, &[]);
+    bench.live(1.2, &EVERYBODY, &[]);
     assert_eq!(bench.chains(), broken, "the dwell time is not over");
     bench.live(1.0, &EVERYBODY, &[]);
     assert_eq!(bench.chains(), whole);
