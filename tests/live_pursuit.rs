@@ -19,7 +19,7 @@ const BOUND: f64 = 0.05;
 
 /// s: when the target sets out (`target.depart`), and when it has reached the end of its way. In between trap, gaps and
 /// moving obstacles lie on the segments without a pause: the field disturbs.
-const DISTURBED: [f64; 2] = [10.0, 90.5];
+const DISTURBED: [f64; 2] = [20.0, 124.3];
 
 /// s: how soon after a disturbance the formation has to stand.
 const PATIENCE: f64 = 15.0;
@@ -73,7 +73,7 @@ fn pursue(domain: u32, arguments: &[&str]) -> Conformed {
 fn live_pursuit_from_a_random_start() {
     let (poses, seed) = (starts(seed()), seed());
     println!("seed {seed}, poses {poses}");
-    pursue(domain(0), &[&format!("poses:={poses}"), &format!("seed:={seed}"), "duration:=120.0"]);
+    pursue(domain(0), &[&format!("poses:={poses}"), &format!("seed:={seed}"), "duration:=145.0"]);
 }
 
 /// The column follows its target over an empty field, where nothing decides between two ways: the runs can be compared.

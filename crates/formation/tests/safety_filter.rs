@@ -147,7 +147,7 @@ fn filter() -> SafetyFilter {
 }
 
 fn wish(v: f64, omega: f64) -> Wish {
-    Wish { twist: Twist { v, omega }, goal: None, kept: None }
+    Wish { twist: Twist { v, omega }, goal: None, kept: None, pace: 0.0 }
 }
 
 fn neighbour(x: f64, y: f64) -> Neighbour {
@@ -160,7 +160,8 @@ fn a_harmless_wish_passes_bit_for_bit() {
     let neighbours = [neighbour(1.0, 0.0)];
     let scene = Scene { neighbours: &neighbours, ..Scene::default() };
     let twist = Twist { v: 0.1 + 0.2, omega: -0.0 };
-    let filtered = filter().apply(Pose::default(), Twist::ZERO, Wish { twist, goal: None, kept: None }, &scene);
+    let filtered =
+        filter().apply(Pose::default(), Twist::ZERO, Wish { twist, goal: None, kept: None, pace: 0.0 }, &scene);
     assert_eq!(filtered.acted, None);
     assert_eq!(filtered.twist.v.to_bits(), twist.v.to_bits());
     assert_eq!(filtered.twist.omega.to_bits(), twist.omega.to_bits());
@@ -196,6 +197,22 @@ fn what_is_not_finite_stops_the_robot() {
     check(pose, still, wish(0.1, 0.0), neighbour(f64::NAN, 1.0));
     let goal = Some(Vector2::new(f64::NAN, 0.0));
     check(pose, still, Wish { goal, ..wish(0.1, 0.0) }, far);
+}
+
+/// A law that pulls across the way round has no speed along it: the way is driven at the law's pace, at least at `detour_speed`.
+#[test]
+fn a_way_round_is_driven_at_the_pace_of_the_law() {
+    let neighbours = [Neighbour { settled: true, ..neighbour(0.5, 0.0) }];
+    let scene = Scene { neighbours: &neighbours, ..Scene::default() };
+    let goal = Some(Vector2::new(1.0, 0.0));
+    let straight = filter().apply(Pose::default(), Twist::ZERO, Wish { goal, ..wish(0.0, 0.0) }, &scene);
+    let theta = straight.twist.omega / 4.0;
+    let fastest = |pace: f64| {
+        let pose = Pose { theta, ..Pose::default() };
+        filter().apply(pose, Twist::ZERO, Wish { goal, pace, ..wish(0.0, 0.0) }, &scene).twist.v
+    };
+    let speeds = [0.0, 0.05, 0.2].map(fastest);
+    assert!((speeds[0] - 0.12).abs() < 1e-3 && speeds[1] == speeds[0] && speeds[2] > 0.18, "{speeds:?}");
 }
 
 #[test]

@@ -70,6 +70,7 @@ impl Tick {
             lyapunov: Lyapunov::default(),
             acceleration: (end - robot.velocity) / duration,
             detour: None,
+            pace: 0.0,
             watched: None,
             zone: None,
         })

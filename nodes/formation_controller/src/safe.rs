@@ -12,13 +12,14 @@ use trench_msgs::msg::{LeaderState, RobotState};
 const FORGET: f64 = 2.0;
 
 impl Tick {
-    /// The twist after the filter; `goal` is what a way round leads to.
+    /// The twist after the filter; `goal` is what a way round leads to, `pace` (m/s) how fast
+    /// the law would drive it.
     pub(crate) fn safe(
         &mut self,
         (at, acts): (Times, RosTime),
         state: &RobotState,
         twist: Twist,
-        goal: Option<Vector2<f64>>,
+        (goal, pace): (Option<Vector2<f64>>, f64),
         command: &mut Command,
     ) -> Result<Twist, Hold> {
         if !self.settings.safety_enabled {
@@ -39,7 +40,8 @@ impl Tick {
         let now = Twist { v: state.v, omega: state.omega };
         // A law that goes by potentials is led round, not across: it keeps to the side that it took.
         let kept = self.detour.filter(|_| self.settings.dynamic.is_some()).map(|(side, _)| side);
-        let filtered = self.settings.safety.apply(pose, now, Wish { twist, goal, kept }, &scene);
+        let pace = pace.min(self.faster());
+        let filtered = self.settings.safety.apply(pose, now, Wish { twist, goal, kept, pace }, &scene);
         match filtered.side {
             Some(side) => self.detour = Some((side, at.steady)),
             None if self.detour.is_some_and(|(_, last)| at.steady.seconds_since(last) > FORGET) => self.detour = None,
@@ -49,6 +51,12 @@ impl Tick {
             command.limits |= LeaderState::LIMIT_SAFETY;
         }
         Ok(filtered.twist)
+    }
+
+    /// As fast forward as the motors can be with the next command, m/s.
+    fn faster(&self) -> f64 {
+        let told = self.last.map_or(0.0, |(_, wheels)| self.settings.axle.twist(wheels).v);
+        told.max(0.0) + self.settings.ramp.acceleration * self.inputs.interval()
     }
 
     /// The other robots as the vision sees them, and what they say of themselves.

@@ -108,6 +108,7 @@ impl Tick {
             },
             acceleration: driven.mean_acceleration,
             detour: action.attraction.filter(|_| settings.detours),
+            pace: settings.pace(&action, chain.leader.is_some()),
             watched: Some(watched),
             zone,
         })

@@ -36,6 +36,8 @@ pub(crate) struct Wanted {
     pub(crate) acceleration: Vector2<f64>,
     /// What the safety filter leads round things to.
     pub(crate) detour: Option<Vector2<f64>>,
+    /// How fast the law drives at this distance where nothing is in the way, m/s: what it integrates knows of no way round.
+    pub(crate) pace: f64,
     /// What the monitor looks at; none while no law drives.
     pub(crate) watched: Option<Watched>,
     /// Where the leader is, and how far.
@@ -212,7 +214,7 @@ impl Tick {
             return Err(Hold::NotFinite);
         }
         let followable = self.followable(wanted.twist, acts, command);
-        command.twist = self.safe((at, acts), &state, followable, wanted.detour, command)?;
+        command.twist = self.safe((at, acts), &state, followable, (wanted.detour, wanted.pace), command)?;
         if !command.twist.is_finite() {
             return Err(Hold::NotFinite);
         }

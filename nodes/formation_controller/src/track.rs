@@ -43,6 +43,7 @@ impl Tick {
             acceleration: Vector2::zeros(),
             // A goal that moves on is no place that a robot could be in the way of.
             detour: (phase != Goal::PHASE_MOVING || !self.holding).then_some(goal.position),
+            pace: 0.0,
         }
     }
 }

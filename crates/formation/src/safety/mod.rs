@@ -30,6 +30,9 @@ pub struct Wish {
     pub goal: Option<Vector2<f64>>,
     /// The side of the last way round, [`Filtered::side`], for robots that are not to change their minds.
     pub kept: Option<Side>,
+    /// How fast the law drives at this distance where nothing is in the way, m/s: the speed on a way round, where that is more than
+    /// the twist's own and than the least that there is.
+    pub pace: f64,
 }
 
 /// What is sent instead.
@@ -62,7 +65,9 @@ impl SafetyFilter {
     /// The twist to send for a robot at `pose` that moves with twist `now` and whose law wants `wish`.
     pub fn apply(&self, pose: Pose, now: Twist, wish: Wish, scene: &Scene<'_>) -> Filtered {
         let place_known = (pose.x + pose.y + pose.theta).is_finite() && now.is_finite();
-        let wish_known = wish.twist.is_finite() && wish.goal.is_none_or(|goal| (goal.x + goal.y).is_finite());
+        let wish_known = wish.twist.is_finite()
+            && wish.pace.is_finite()
+            && wish.goal.is_none_or(|goal| (goal.x + goal.y).is_finite());
         if !(place_known && wish_known && scene.is_finite()) {
             return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite), side: None };
         }
@@ -72,7 +77,7 @@ impl SafetyFilter {
                 .detour()
         });
         let (wanted, blocker, side) = match detour {
-            Some(detour) => (self.steer(pose, wish.twist, detour.direction), Some(detour.blocker), Some(detour.side)),
+            Some(detour) => (self.steer(pose, wish, detour.direction), Some(detour.blocker), Some(detour.side)),
             None => (wish.twist, None, None),
         };
         let (twist, decisive) = limit::limit(&self.parameters, scene, pose, now, wanted);
@@ -80,10 +85,10 @@ impl SafetyFilter {
     }
 
     /// Twist that turns the robot towards `direction`, at speed only once it faces there.
-    fn steer(&self, pose: Pose, wish: Twist, direction: Vector2<f64>) -> Twist {
+    fn steer(&self, pose: Pose, wish: Wish, direction: Vector2<f64>) -> Twist {
         let error = wrap(libm::atan2(direction.y, direction.x) - pose.theta);
         let facing = libm::cos(error).max(0.0);
-        let speed = wish.v.abs().max(self.parameters.detour_speed);
+        let speed = wish.twist.v.abs().max(wish.pace).max(self.parameters.detour_speed);
         Twist { v: speed * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
     }
 }

@@ -152,7 +152,7 @@ impl<'a> Bed<'a> {
                 neighbours.push(Neighbour { position, velocity, radius: RADIUS, cooperative: false, settled: false });
             }
             let scene = Scene { neighbours: &neighbours, obstacles: &self.obstacles, field: &FIELD };
-            let wish = Wish { twist: robot.law(), goal: Some(robot.goal), kept: None };
+            let wish = Wish { twist: robot.law(), goal: Some(robot.goal), kept: None, pace: 0.0 };
             let filtered = self.filter.apply(robot.pose, robot.twist(), wish, &scene);
             assert!(filtered.acted.is_some() || filtered.twist == wish.twist);
             robot.command(self.now + self.delay, filtered.twist);

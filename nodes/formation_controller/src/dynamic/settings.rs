@@ -4,7 +4,7 @@ use super::DynamicLaw;
 use super::potentials::{self, potential, zoning};
 use super::remedies::{self, remedies};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_formation::agent::{AgentSettings, Encroaching};
+use trench_formation::agent::{Action, AgentSettings, Encroaching};
 use trench_formation::laws::{Capability, NearestAttraction};
 use trench_formation::seek::{LeaderRule, SeekSettings};
 use trench_formation::trench::{AnyTrench, check_admissibility};
@@ -79,6 +79,13 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
 }
 
 impl DynamicSettings {
+    /// The speed (m/s, relative to the segment) at which the trench's pull and the damping balance, within the limits.
+    pub(crate) fn pace(&self, action: &Action, follows: bool) -> f64 {
+        let law = &self.agent.law;
+        let damping = if follows { law.damping + law.leader_damping } else { law.damping };
+        (action.forces.trench.norm().min(self.capability.acceleration) / damping).min(self.capability.speed)
+    }
+
     /// The settings, if `law` names a dynamic law.
     pub(crate) fn read(parameters: &Parameters) -> Result<Option<Self>, ConfigError> {
         let Some(law) = DynamicLaw::named(parameters.str("law")?) else { return Ok(None) };
