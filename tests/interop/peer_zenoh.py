@@ -16,6 +16,7 @@ import math
 import pathlib
 import re
 import sys
+import threading
 import time
 
 import zenoh_ros2_sdk as sdk
@@ -91,14 +92,25 @@ def echo(topic: str, name: str, type_hash: str, latched: bool) -> None:
     """Messages, one a line."""
     text = register(name)
     durability = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE
-    sdk.ROS2Subscriber(
-        topic,
-        name,
-        callback=lambda message: report(plain(message)),
-        msg_definition=text,
-        type_hash=type_hash,
-        qos=QosProfile(durability=durability, history_depth=1),
-    )
+    heard = threading.Event()
+
+    def hear(message) -> None:
+        report(plain(message))
+        heard.set()
+
+    while True:
+        subscriber = sdk.ROS2Subscriber(
+            topic,
+            name,
+            callback=hear,
+            msg_definition=text,
+            type_hash=type_hash,
+            qos=QosProfile(durability=durability, history_depth=1),
+        )
+        # The SDK asks for the past once, of those whom its session knows right after it has been opened: often of nobody.
+        if not latched or heard.wait(2.0):
+            break
+        subscriber.close()
     while True:
         time.sleep(1.0)
 
