@@ -12,7 +12,7 @@ const PROCESSES: usize = 14;
 
 fn processes_that_start_at_once_find_each_other_and_end_when_asked(network: Network) {
     for round in 0..3 {
-        let island = network.island(44 + round);
+        let island = network.island(40 + round);
         let crowd: Vec<Running> = (0..PROCESSES)
             .map(|number| island.start("crowd", &format!("--ros-args -r __node:=c{number} -p peers:={PROCESSES}")))
             .collect();

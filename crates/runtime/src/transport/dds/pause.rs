@@ -13,7 +13,7 @@
 use log::{LevelFilter, Log, Metadata, Record};
 use std::fmt;
 use std::sync::{Condvar, Mutex, MutexGuard, Once, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Where the discovery thread logs.
 const DISCOVERY: &str = "rustdds::discovery::discovery";
@@ -82,17 +82,14 @@ impl Log for Hold {
     }
 
     fn log(&self, record: &Record<'_>) {
-        if record.target() != DISCOVERY || !LOCK_FREE.iter().any(|words| starts_with(*record.args(), words)) {
+        if !self.enabled(record.metadata()) || !LOCK_FREE.iter().any(|words| starts_with(*record.args(), words)) {
             return;
         }
-        let deadline = Instant::now() + LONGEST;
         let mut state = self.lock();
         state.held += 1;
         self.changed.notify_all();
-        while state.pauses > 0 && Instant::now() < deadline {
-            let rest = deadline.saturating_duration_since(Instant::now());
-            state = self.changed.wait_timeout(state, rest).unwrap_or_else(PoisonError::into_inner).0;
-        }
+        let held = self.changed.wait_timeout_while(state, LONGEST, |state| state.pauses > 0);
+        let (mut state, _) = held.unwrap_or_else(PoisonError::into_inner);
         state.held -= 1;
     }
 
