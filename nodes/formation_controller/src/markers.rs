@@ -1,6 +1,7 @@
 //! What a controller goes by, as RViz2 and Foxglove draw it: zones, hulls merged with the robots ahead, what is left of the segment,
 //! the point that draws the robot, forces, the way out of a minimum (Figures 7.4 to 7.14).
 
+use crate::ports::MAP;
 use trench_core::{RosTime, duration_from_seconds};
 use trench_formation::Vector2;
 use trench_formation::agent::{Action, Agent, Surroundings};
@@ -133,7 +134,7 @@ struct Drawn {
 impl Drawn {
     fn add(&mut self, part: &str, kind: i32, color: ColorRGBA) -> &mut Marker {
         let marker = Marker {
-            header: Header { stamp: self.stamp.into(), frame_id: "map".to_owned() },
+            header: Header { stamp: self.stamp.into(), frame_id: MAP.to_owned() },
             ns: format!("controller/{part}"),
             id: self.first + self.markers.len() as i32,
             r#type: kind,

@@ -2,13 +2,14 @@
 
 use crate::settings::Settings;
 use trench_core::{Advertise, Interface, Local, Qos, Subscribe};
+use trench_msgs::Encode;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{
     ApparentObstacleArray, Assignment, Formation, Goals, Identify, LeaderState, LinkStatus, RunState, Stability,
     TeamState,
 };
-use trench_msgs::std_msgs::{Bool, Float64};
+use trench_msgs::std_msgs::{Bool, Float64, Header};
 use trench_msgs::visualization_msgs::MarkerArray;
 
 pub(crate) const TEAM_STATE: usize = 0;
@@ -30,11 +31,11 @@ pub(crate) const DIAGNOSTICS: usize = 2;
 pub(crate) const STABILITY: usize = 3;
 pub(crate) const MARKERS: usize = 4;
 
+/// The frame of all that a controller says.
+pub(crate) const MAP: &str = "map";
+
 /// Room for one small message in shared memory.
 const SMALL: Local = Local::SharedMemory { max_len: 1024 };
-
-/// Room for a leader state that names some hundred robots.
-const STATE: Local = Local::SharedMemory { max_len: 8192 };
 
 /// All topics of a controller that hears `others`.
 pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
@@ -56,6 +57,8 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
     subscriptions.extend(others.iter().map(leader_state));
     subscriptions.push(Subscribe::to::<Identify>("/identify", Qos::RELIABLE).without_waking());
     subscriptions.push(Subscribe::to::<Float64>("/loop_delay", Qos::LATCHED).without_waking());
+    // Just the room it needs: only where messages are short may the network rest.
+    let max_len = longest_state(robot, others).encoded_len();
     let command = format!("/{robot}/cmd_vel");
     let command = if settings.stamped {
         Advertise::of::<TwistStamped>(command, Qos::RELIABLE, SMALL)
@@ -66,11 +69,21 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
         subscriptions,
         publications: vec![
             command,
-            Advertise::of::<LeaderState>(format!("/{robot}/leader_state"), Qos::RELIABLE, STATE),
+            Advertise::of::<LeaderState>(
+                format!("/{robot}/leader_state"),
+                Qos::RELIABLE,
+                Local::SharedMemory { max_len },
+            ),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
             Advertise::of::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE, Local::NetworkOnly),
             Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
         ],
         ..Interface::default()
     }
+}
+
+/// A leader state of `robot` that hears everybody.
+fn longest_state(robot: &str, others: &[String]) -> LeaderState {
+    let header = Header { frame_id: MAP.to_owned(), ..Header::default() };
+    LeaderState { header, robot: robot.to_owned(), hears: others.to_vec(), ..LeaderState::default() }
 }

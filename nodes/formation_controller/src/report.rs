@@ -1,6 +1,7 @@
 //! What the robot tells those that follow it, and everyone who watches.
 
 use crate::inputs::point;
+use crate::ports::MAP;
 use crate::tick::{Command, Tick, pose_of};
 use trench_core::Times;
 use trench_formation::Vector2;
@@ -17,7 +18,7 @@ impl Tick {
         let (steered, steered_velocity) = self.steered_point(command).unwrap_or((position, velocity));
         let wanted = command.wanted;
         let mut message = LeaderState {
-            header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
+            header: Header { stamp: command.exposure.into(), frame_id: MAP.to_owned() },
             robot: settings.robot.clone(),
             hears: inputs.others.heard(at.steady, settings.leader_state_age_limit).map(str::to_owned).collect(),
             position: point(position),

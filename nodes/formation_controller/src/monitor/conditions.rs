@@ -1,6 +1,7 @@
 //! What the stability arguments ask for, and what is said where it does not hold.
 
 use crate::law::Law;
+use crate::ports::MAP;
 use crate::tick::{Command, Tick};
 use std::fmt;
 use trench_core::Condition;
@@ -76,7 +77,7 @@ impl Tick {
         let robot = &self.settings.robot;
         let text = |violation: &Violation| format!("{robot}: {}: {violation}", violation.equation(equation));
         let message = Stability {
-            header: Header { stamp: command.exposure.into(), frame_id: "map".to_owned() },
+            header: Header { stamp: command.exposure.into(), frame_id: MAP.to_owned() },
             robot: robot.clone(),
             law: self.settings.law_name.clone(),
             equation: equation.to_owned(),

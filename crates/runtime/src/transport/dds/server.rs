@@ -2,7 +2,7 @@
 
 use super::long;
 use super::reader::DdsReader;
-use super::writer::{DdsWriter, LONGEST_RELATED, gid};
+use super::writer::{DdsWriter, LONGEST_ANNOTATED, gid};
 use crate::transport::network::{Gid, NetworkReader, NetworkWriter, NotSent, PendingRequest, ServiceServer};
 use rustdds::bytes::Bytes;
 use rustdds::mio1::{Interest, Registry, Token, event};
@@ -37,7 +37,7 @@ impl DdsServer {
     }
 
     fn send(&mut self, request: SampleIdentity, response: Bytes) -> Result<(), NotSent> {
-        let written = if response.len() > LONGEST_RELATED {
+        let written = if response.len() > LONGEST_ANNOTATED {
             self.send_long(request, &response)?;
             self.responses.write(Bytes::from_static(long::PLACEHOLDER))
         } else {

@@ -12,15 +12,11 @@ use std::time::Duration;
 /// far behind is not coming back; memory ends somewhere.
 const WAITING: usize = 8192;
 
-/// The longest message that can carry its count, bytes. RustDDS 0.15.1 cuts longer ones into fragments (above 1452 bytes
-/// on an Ethernet), and writes fragments with inline quality of service, which is where the count is, so that nobody
-/// can read them.
-const LONGEST_COUNTED: usize = 1024;
-
-/// The longest message that can say which request it answers in the ordinary way, bytes: RustDDS 0.15.1 cuts up what is longer than 1452 bytes
-/// less heartbeat (32) and header (48) where a reader announces an Ethernet address. The request, too, is said in inline
-/// quality of service. For longer ones see [`super::long`].
-pub(super) const LONGEST_RELATED: usize = 1372;
+/// The longest message that can say more than itself, bytes: its writer's own count, or in a response which request it
+/// answers. Both are said in inline quality of service, and with that nobody can read what RustDDS 0.15.1 cuts up: what is
+/// longer than 1452 bytes less heartbeat (32) and header (48) where a reader announces an Ethernet address. For longer
+/// responses see [`super::long`].
+pub(super) const LONGEST_ANNOTATED: usize = 1372;
 
 /// Writes messages in order and never blocks: what the send window does not take waits here.
 pub(crate) struct DdsWriter {
@@ -75,7 +71,7 @@ impl NetworkWriter for DdsWriter {
     /// Readers of ours are told the writer's own count where the network's differs.
     fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
         let mut options = WriteOptionsBuilder::new();
-        if count != self.accepted + 1 && message.len() <= LONGEST_COUNTED {
+        if count != self.accepted + 1 && message.len() <= LONGEST_ANNOTATED {
             let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
             options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
         }
@@ -83,7 +79,7 @@ impl NetworkWriter for DdsWriter {
     }
 
     fn longest_counted(&self) -> usize {
-        LONGEST_COUNTED
+        LONGEST_ANNOTATED
     }
 
     fn flush(&mut self) -> bool {
