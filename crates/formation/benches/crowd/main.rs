@@ -109,9 +109,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         output.rows(&format!("starts_{count}.txt"), rows(&mut starts.clone()))?;
         let mut nearest = starts.map(|start| scenario.segment.nearest(start).point);
         output.rows(&format!("ends_{count}.txt"), rows(&mut nearest))?;
-        if measure(&mut output, &scenario, 1)? != measure(&mut output, &scenario, 2)? {
+        let moved = measure(&mut output, &scenario, 1)?;
+        if moved != measure(&mut output, &scenario, 2)? {
             return Err(format!("{count} robots move differently on two threads").into());
         }
+        output.rows(&format!("moved_{count}.txt"), rows(&mut moved.iter().map(|robot| robot.position)))?;
     }
     output.finish()
 }

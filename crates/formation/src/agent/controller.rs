@@ -6,11 +6,12 @@ use super::surroundings::Moment;
 use super::{Action, AgentSettings, Driven, Forces, Method, Powers, Surroundings, Work};
 use crate::Vector2;
 use crate::curve::Interval;
-use crate::hull::{Approach, HullError};
+use crate::hull::{ApparentObstacle, Approach, HullError};
 use crate::kinematics::PointState;
 use crate::laws::{Attraction, NearestAttraction, Push, Steered, Terms, ZonedAttraction};
 use crate::seek::{Fragments, Seeker};
 use crate::trench::{Damping, Trench};
+use std::sync::Arc;
 
 /// A push within this of straight against the attraction (its sine) is turned by [`SIDESTEP`] (rad).
 const HEAD_ON: f64 = 0.05;
@@ -19,7 +20,8 @@ const SIDESTEP: f64 = 0.15;
 /// One robot's controller.
 #[derive(Debug, Clone)]
 pub struct Agent<T> {
-    pub(super) settings: AgentSettings<T>,
+    /// Shared by all robots that are clones of one.
+    pub(super) settings: Arc<AgentSettings<T>>,
     pub(super) seeker: Seeker,
     pub(super) remedy: Remedy,
     pub(super) fragments: Fragments,
@@ -33,6 +35,7 @@ impl<T: Trench> Agent<T> {
     /// A robot that has seen nothing yet.
     pub fn new(settings: AgentSettings<T>) -> Self {
         let (seeker, remedy, fragments) = (Seeker::default(), Remedy::default(), Fragments::default());
+        let settings = Arc::new(settings);
         Self { settings, seeker, remedy, fragments, encroachers: None, last: None, sensed: None }
     }
 
@@ -43,7 +46,7 @@ impl<T: Trench> Agent<T> {
 
     /// Goes on under other settings: with the nearest point that it has, and the remedy that is under way.
     pub fn set(&mut self, settings: AgentSettings<T>) {
-        self.settings = settings;
+        self.settings = Arc::new(settings);
         self.encroachers = None;
     }
 
@@ -190,7 +193,7 @@ impl<T: Trench> Agent<T> {
                 });
                 let leading = leader
                     .map(|leader| (Push::of_leader(&settings.zoning, position, leader.position), leader.velocity));
-                let obstacles = (0..around.apparent.len()).map(|index| {
+                let obstacles = self.obstacles_near(around, since, position).map(|index| {
                     let approach = self.approach(around, since, index, position);
                     (turn(Push::of_obstacle(&settings.potential, approach)), around.velocity(index))
                 });
@@ -252,13 +255,28 @@ impl<T: Trench> Agent<T> {
             let push = Push::of_robot_ahead(&settings.zoning, robot.position, there.position);
             add(push, there.velocity, &mut forces.robots, &mut powers.robots);
         }
-        for index in 0..around.apparent.len() {
+        for index in self.obstacles_near(around, moment.since, robot.position) {
             let approach = self.approach(around, moment.since, index, robot.position);
             let push = Push::of_obstacle(&settings.potential, approach);
             add(push, around.velocity(index), &mut forces.obstacles, &mut powers.obstacles);
         }
         steered.acceleration += moment.motion.at(robot.position).acceleration;
         steered
+    }
+
+    /// The obstacles that may push a robot, by their indices: the others' potential is cut before it reaches so far.
+    fn obstacles_near(
+        &self,
+        around: &Surroundings<'_>,
+        since: f64,
+        robot: Vector2<f64>,
+    ) -> impl Iterator<Item = usize> {
+        let cut = self.settings.potential.cut();
+        let near = move |(index, obstacle): &(usize, &ApparentObstacle)| {
+            self.remedy.concerns(obstacle.id)
+                || !obstacle.shape.is_beyond(robot - around.displacement(*index, since), cut)
+        };
+        around.apparent.iter().enumerate().filter(near).map(|(index, _)| index)
     }
 
     fn approach(&self, around: &Surroundings<'_>, since: f64, index: usize, robot: Vector2<f64>) -> Approach {

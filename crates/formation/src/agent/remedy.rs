@@ -144,6 +144,11 @@ impl Remedy {
         }
     }
 
+    /// Whether it changes what [`Self::approach`] says of the obstacle of an id.
+    pub(super) fn concerns(&self, id: u32) -> bool {
+        matches!(&self.state, State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. } if *obstacle == id)
+    }
+
     /// Distance and direction of an apparent obstacle with its guard; of its nearest member while the robot is on its way out.
     pub(super) fn approach(
         &self,

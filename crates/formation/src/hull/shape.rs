@@ -8,6 +8,9 @@ use nalgebra::Vector2;
 pub struct Shape {
     points: Vec<Vector2<f64>>,
     radius: f64,
+    /// A disc that holds it: for most questions about what is far away that is enough.
+    middle: Vector2<f64>,
+    extent: f64,
 }
 
 impl Shape {
@@ -39,7 +42,7 @@ impl Shape {
         let radius = length("the radius", radius)?;
         let mut points = points.to_vec();
         convex_hull(&mut points);
-        Ok(Self { points, radius })
+        Ok(Self::of_hull(points, radius))
     }
 
     /// Hull of several shapes, which must not be empty. It is grown by the least of their radii; rounder corners become
@@ -57,7 +60,21 @@ impl Shape {
             }
         }
         convex_hull(&mut points);
-        Self { points, radius }
+        Self::of_hull(points, radius)
+    }
+
+    /// `points` are the corners of a convex polygon.
+    fn of_hull(points: Vec<Vector2<f64>>, radius: f64) -> Self {
+        let (middle, extent) = Outline { points: &points, radius }.disc_around();
+        // More than rounding may take.
+        Self { points, radius, middle, extent: extent * (1.0 + 1e-9) }
+    }
+
+    /// Whether it is farther than `distance` (m) from `point` for certain, and then [`Outline::approach`] would say so; quickly found,
+    /// but not of all shapes that are.
+    pub fn is_beyond(&self, point: Vector2<f64>, distance: f64) -> bool {
+        let far = distance + self.extent;
+        (point - self.middle).norm_squared() > far * far
     }
 
     /// The shape displaced by `by` (m).
@@ -68,7 +85,7 @@ impl Shape {
         let points: Vec<Vector2<f64>> = self.points.iter().map(|point| point + by).collect();
         match points.iter().position(|point| !(point.x.is_finite() && point.y.is_finite())) {
             Some(corner) => Err(HullError::NotFinite(corner)),
-            None => Ok(Self { points, radius: self.radius }),
+            None => Ok(Self::of_hull(points, self.radius)),
         }
     }
 

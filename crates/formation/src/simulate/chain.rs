@@ -6,7 +6,9 @@ use crate::Vector2;
 use crate::agent::{Action, Agent, Leader, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
+use crate::laws::RigidMotion;
 use crate::trench::Trench;
+use nalgebra::Isometry2;
 use std::sync::Arc;
 
 /// Robots below which a share is not worth a worker of its own.
@@ -77,9 +79,11 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         self.tick()?;
         let Self { scenario, real, obstacles, velocities, robots, seen, agents, .. } = self;
         let since = (self.steps % u64::from(scenario.steps_per_tick)) as f64 * scenario.step;
+        let time = self.steps as f64 * scenario.step - since;
         let view = View {
             scenario,
-            time: self.steps as f64 * scenario.step - since,
+            time,
+            frame: scenario.carriage.at(time),
             real,
             apparent: obstacles,
             velocities,
@@ -141,9 +145,11 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
 
     fn sense(&mut self) -> Result<(), ScenarioError> {
         let Self { scenario, real, obstacles, velocities, seen, agents, .. } = self;
+        let time = self.steps as f64 * scenario.step;
         let view = View {
             scenario,
-            time: self.steps as f64 * scenario.step,
+            time,
+            frame: scenario.carriage.at(time),
             real,
             apparent: obstacles,
             velocities,
@@ -163,6 +169,8 @@ struct View<'a, T> {
     scenario: &'a ChainScenario<T>,
     /// Time of the tick, s.
     time: f64,
+    /// The segment's frame then.
+    frame: (Isometry2<f64>, RigidMotion),
     real: &'a [Obstacle],
     apparent: &'a [ApparentObstacle],
     velocities: &'a [Vector2<f64>],
@@ -193,7 +201,7 @@ impl<T: Trench> View<'_, T> {
 
     /// The surroundings of a robot at the tick.
     fn around(&self, index: usize) -> Surroundings<'_> {
-        let (map_from_segment, motion) = self.scenario.carriage.at(self.time);
+        let (map_from_segment, motion) = self.frame;
         let goal = self.scenario.team_goal.filter(|_| index == 0);
         Surroundings {
             time: self.time,

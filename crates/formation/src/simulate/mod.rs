@@ -10,6 +10,7 @@ mod goal_team;
 mod grid;
 mod integrate;
 mod judge;
+mod neighbours;
 mod observe;
 mod random;
 mod regulation;

@@ -1,5 +1,5 @@
 //! What is near each robot at a tick: the robots ahead that may push it, and the lines of the safety filter.
-use super::grid::Grid;
+use super::neighbours::Neighbours;
 use super::{ChainScenario, Encroaching};
 use crate::Vector2;
 use crate::hull::Obstacle;
@@ -9,15 +9,17 @@ use crate::safety::{Line, Passing, Stopping};
 /// Interactions are of finite range: a robot is told of no others than those within it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Vicinity {
-    grid: Grid,
-    robots: Vec<Near>,
-    found: Vec<u32>,
-}
-
-#[derive(Debug, Clone, Default)]
-struct Near {
+    neighbours: Neighbours,
+    /// What is near the robots, one robot after the other: it ends there for each of them.
     ahead: Vec<PointState>,
     lines: Vec<Line>,
+    ends: Vec<Ends>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Ends {
+    ahead: usize,
+    lines: usize,
 }
 
 impl Vicinity {
@@ -30,23 +32,27 @@ impl Vicinity {
         }
         let period = scenario.step * f64::from(scenario.steps_per_tick);
         let range = safety.map_or(0.0, |safety| safety.range(period));
-        self.grid.fill(range.max(reach.unwrap_or(0.0)), seen.iter().map(|robot| robot.position));
-        self.robots.resize(seen.len(), Near::default());
-        for (index, (robot, near)) in seen.iter().zip(&mut self.robots).enumerate() {
-            self.grid.near(robot.position, &mut self.found);
-            near.ahead.clear();
-            if let Some(reach) = reach {
+        self.neighbours.update(range.max(reach.unwrap_or(0.0)), seen);
+        self.ahead.clear();
+        self.lines.clear();
+        self.ends.clear();
+        let reach_squared = reach.map_or(0.0, |reach| reach * reach);
+        for (index, robot) in seen.iter().enumerate() {
+            for other in self.neighbours.of(index) {
+                let at = *other as usize;
+                let distance_squared = (seen[at].position - robot.position).norm_squared();
                 // The leader of a robot is not among those ahead of it: it has a potential of its own.
-                let ahead = self.found.iter().map(|other| *other as usize).filter(|other| other + 1 < index);
-                let within = |other: &PointState| (other.position - robot.position).norm_squared() < reach * reach;
-                near.ahead.extend(ahead.map(|other| seen[other]).filter(within));
+                if at + 1 < index && distance_squared < reach_squared {
+                    self.ahead.push(seen[at]);
+                }
+                if let Some(safety) = safety.filter(|_| distance_squared < range * range) {
+                    self.lines.push(safety.between(*robot, seen[at]));
+                }
             }
-            near.lines.clear();
             if let Some(safety) = safety {
-                let others = self.found.iter().map(|other| *other as usize).filter(|other| *other != index);
-                near.lines.extend(others.map(|other| safety.between(*robot, seen[other])));
-                near.lines.extend(resting(scenario, real, safety, *robot, range));
+                self.lines.extend(resting(scenario, real, safety, *robot, range));
             }
+            self.ends.push(Ends { ahead: self.ahead.len(), lines: self.lines.len() });
         }
     }
 
@@ -57,10 +63,14 @@ impl Vicinity {
         seen: &'a [PointState],
         index: usize,
     ) -> &'a [PointState] {
-        match self.robots.get(index) {
-            Some(near) if reach_of_potentials(scenario).is_some() => &near.ahead,
+        match self.ends.get(index) {
+            Some(end) if reach_of_potentials(scenario).is_some() => &self.ahead[self.begin(index).ahead..end.ahead],
             _ => &seen[..index.saturating_sub(1)],
         }
+    }
+
+    fn begin(&self, index: usize) -> Ends {
+        index.checked_sub(1).map_or(Ends { ahead: 0, lines: 0 }, |before| self.ends[before])
     }
 
     /// What the filter leaves of the acceleration of a robot, `since` seconds after the tick.
@@ -72,11 +82,11 @@ impl Vicinity {
         wanted: Vector2<f64>,
         since: f64,
     ) -> Vector2<f64> {
-        let (Some(safety), Some(near)) = (&scenario.options.safety, self.robots.get(index)) else { return wanted };
+        let (Some(safety), Some(end)) = (&scenario.options.safety, self.ends.get(index)) else { return wanted };
         let passing = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity != Vector2::zeros());
         let passing =
             passing.map(|(obstacle, velocity)| Passing { outline: obstacle.shape.outline(), velocity, since });
-        safety.admit(robot, wanted, &near.lines, passing, scenario.step)
+        safety.admit(robot, wanted, &self.lines[self.begin(index).lines..end.lines], passing, scenario.step)
     }
 }
 
@@ -103,6 +113,7 @@ fn resting<'a, T>(
 ) -> impl Iterator<Item = Line> + 'a {
     let at_rest = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity == Vector2::zeros());
     let near = at_rest
+        .filter(move |(obstacle, _)| !obstacle.shape.is_beyond(robot.position, range))
         .map(|(obstacle, _)| obstacle.shape.outline())
         .filter(move |outline| outline.approach(robot.position).gap < range);
     near.map(move |outline| safety.before(robot, &outline))
