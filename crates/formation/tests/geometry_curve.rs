@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
-use trench_formation::curve::{Curve, CurveError, CurveShape, Placed};
+use trench_formation::curve::{Curve, CurveError, CurveShape, Placed, Warm};
 
 fn at(x: f64, y: f64) -> Vector2<f64> {
     Vector2::new(x, y)
@@ -194,6 +194,23 @@ fn unusable_descriptions_are_refused() {
 }
 
 proptest! {
+    /// What the last answer proved has no influence on the next: along any way, near or far, over any joint, across any tie.
+    #[test]
+    fn asked_again_is_asked_anew(
+        shape in 0..9_usize, x in -3.0..3.0_f64, y in -3.0..3.0_f64,
+        moves in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 60), pace in 0.0..0.5_f64,
+    ) {
+        let (curve, other) = (curve(shapes()[shape].clone()), parabola());
+        let (mut point, mut warm) = (at(x, y), Warm::default());
+        for (index, (x, y)) in moves.into_iter().enumerate() {
+            prop_assert_eq!(curve.nearest_again(point, &mut warm), curve.nearest(point));
+            if index % 20 == 19 {
+                prop_assert_eq!(other.nearest_again(point, &mut warm), other.nearest(point));
+            }
+            point += pace * at(x, y);
+        }
+    }
+
     #[test]
     fn nearest_is_the_global_minimum(index in 0..9_usize, x in -3.0..3.0_f64, y in -3.0..3.0_f64) {
         let curve = curve(shapes()[index].clone());
@@ -206,9 +223,6 @@ proptest! {
         prop_assert!(foot.distance <= sampled + 1e-12);
         prop_assert!(foot.distance >= sampled - curve.length() / f64::from(samples));
         prop_assert!((curve.at(foot.arc_length).point - foot.point).norm() < 1e-12);
-        for guess in [0.0, foot.arc_length, 0.37 * curve.length(), curve.length()] {
-            prop_assert_eq!(curve.nearest_from(point, guess), foot, "from {}", guess);
-        }
         let set = curve.nearest_all(point);
         prop_assert!(set.feet.iter().any(|other| (other.point - foot.point).norm() < 1e-9));
         prop_assert!(set.feet.iter().all(|other| other.distance < foot.distance + 2e-9 * (1.0 + foot.distance)));

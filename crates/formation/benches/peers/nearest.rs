@@ -2,7 +2,7 @@
 use crate::output::{Output, random};
 use std::error::Error;
 use trench_formation::Vector2;
-use trench_formation::curve::{Curve, CurveShape};
+use trench_formation::curve::{Curve, CurveShape, Warm};
 
 const QUERIES: usize = 10_000;
 
@@ -43,13 +43,8 @@ pub(crate) fn measure(output: &mut Output) -> Result<(), Box<dyn Error>> {
             )?;
             let cold = output.time(&format!("nearest: {kind} of {pieces}, along a way"), 15, QUERIES, || all(&way));
             let warm = output.time(&format!("nearest: {kind} of {pieces}, warm"), 15, QUERIES, || {
-                let mut last = 0.0;
-                let mut next = |point: &Vector2<f64>| {
-                    let foot = curve.nearest_from(*point, last);
-                    last = foot.arc_length;
-                    foot
-                };
-                way.iter().map(&mut next).collect::<Vec<_>>()
+                let mut warm = Warm::default();
+                way.iter().map(|point| curve.nearest_again(*point, &mut warm)).collect::<Vec<_>>()
             });
             assert_eq!(cold, warm, "a warm start changes nothing");
         }

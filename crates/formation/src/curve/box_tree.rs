@@ -37,6 +37,9 @@ impl Bounds {
     }
 }
 
+/// More pieces than 2 to this have no room in memory.
+const MOST_LEVELS: usize = 40;
+
 /// Node 1 is the root, 2 n and 2 n + 1 are the children of n, leaf i is node `leaves` + i.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BoxTree {
@@ -69,7 +72,10 @@ impl BoxTree {
         let mut limit = squared(visit(first));
         let mut node = self.leaves + first;
         while node > 1 {
-            limit = self.visit_below(node ^ 1, point, limit, &mut visit);
+            // Most of them are too far.
+            if self.nodes[node ^ 1].distance_squared(point) <= limit {
+                limit = self.visit_below(node ^ 1, point, limit, &mut visit);
+            }
             node /= 2;
         }
     }
@@ -82,7 +88,7 @@ impl BoxTree {
         mut limit: f64,
         visit: &mut impl FnMut(usize) -> f64,
     ) -> f64 {
-        let mut stack = [(0, 0.0); usize::BITS as usize + 1];
+        let mut stack = [(0, 0.0); MOST_LEVELS];
         stack[0] = (top, self.nodes[top].distance_squared(point));
         let mut used = 1;
         while used > 0 {

@@ -1,7 +1,13 @@
 //! From a description to primitives and pieces.
 use super::{
-    Curve, box_tree::BoxTree, error::CurveError, graph, piece::cut, primitive::Primitive, shape::CurveShape, simple,
-    spline,
+    Curve,
+    box_tree::BoxTree,
+    error::CurveError,
+    graph,
+    piece::{Piece, cut},
+    primitive::Primitive,
+    shape::CurveShape,
+    simple, spline,
 };
 use core::f64::consts::TAU;
 use nalgebra::Vector2;
@@ -26,10 +32,22 @@ impl Curve {
             primitives.push(primitive);
         }
         let tree = BoxTree::new(&pieces);
-        let curve = Self { primitives, pieces, tree, length, closed, open_start, open_end };
+        let stamp = stamp(&pieces);
+        let curve = Self { primitives, pieces, tree, stamp, length, closed, open_start, open_end };
         simple::check(&curve)?;
         Ok(curve)
     }
+}
+
+/// A hash (Fowler, Noll and Vo) of where the pieces are.
+fn stamp(pieces: &[Piece]) -> u64 {
+    let numbers = pieces.iter().flat_map(|piece| {
+        let Piece { from, to, offset, start, end, .. } = piece;
+        [*from, *to, *offset, start.x, start.y, end.x, end.y]
+    });
+    let mix = |hash: u64, number: f64| (hash ^ number.to_bits()).wrapping_mul(0x0100_0000_01b3);
+    // Never 0, which stands for no curve.
+    numbers.fold(0xcbf2_9ce4_8422_2325, mix).max(1)
 }
 
 /// Primitives in order, and whether the last ends where the first begins.

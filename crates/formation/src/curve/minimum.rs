@@ -4,20 +4,31 @@
 //! |g''| <= 3 |p'| |p''| + |p - q| |p'''|. On an interval where these bounds give g' a sign, either one safeguarded
 //! Newton run finds the only minimum, or there is none inside; where they do not, the interval is halved. An interval
 //! is dropped when its chord is farther than the reach plus its sagitta: no minimum can be missed.
+use super::bend::Middle;
 use super::piece::{Piece, distance_to_chord, sagitta};
-use super::primitive::Primitive;
+use super::primitive::{Jet, Primitive};
 use nalgebra::Vector2;
 
 /// An interval halved this often is called a (degenerate) minimum itself: only a centre of curvature comes this far.
 const MOST_SPLITS: u32 = 20;
 
+/// A Newton step shorter than this part of an interval on which g' has a sign is the last: what is left then is below its square.
+const LAST_STEP: f64 = 1e-8;
+
 /// A minimum strictly inside a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Minimum {
-    /// At one parameter, to within `width` in the parameter (0 unless degenerate).
-    At { parameter: f64, distance: f64, width: f64 },
+    /// At one parameter, to within `width` in the parameter (0 unless degenerate), and the primitive there.
+    At { parameter: f64, distance: f64, width: f64, jet: Jet },
     /// The whole piece is part of a circle about the point.
     Everywhere { distance: f64 },
+}
+
+impl Minimum {
+    fn at(primitive: &Primitive, parameter: f64, width: f64, point: Vector2<f64>) -> Self {
+        let jet = primitive.evaluate(parameter);
+        Self::At { parameter, distance: (jet.point - point).norm(), width, jet }
+    }
 }
 
 /// Calls `found` with every interior minimum of the distance from `point` to the piece that can be within `reach`;
@@ -26,23 +37,46 @@ pub(super) fn interior_minima(
     primitive: &Primitive,
     piece: &Piece,
     point: Vector2<f64>,
-    mut reach: f64,
+    reach: f64,
     mut found: impl FnMut(Minimum) -> f64,
 ) {
     if let Primitive::Line { start, direction } = primitive {
         let parameter = (point - start).dot(direction);
         if piece.from < parameter && parameter < piece.to {
-            let distance = (start + parameter * direction - point).norm();
-            found(Minimum::At { parameter, distance, width: 0.0 });
+            found(Minimum::at(primitive, parameter, 0.0, point));
         }
-        return;
-    }
-    if let Some((centre, radius)) = primitive.circle() {
+    } else if let Some((centre, radius)) = primitive.circle() {
         found_on_circle(primitive, piece, point - centre, radius, found);
-        return;
+    } else if let Some(bend) = &piece.bend {
+        // What the first interval asks is known beforehand.
+        if distance_to_chord(point, piece.start, piece.end).0 > reach + piece.sagitta {
+            return;
+        }
+        match bend.middle.slope_sign(point) {
+            Some(true) if changes_sign(&bend.ends[0], &bend.ends[1], point) => {
+                let (bracket, guess) = bend.guess(piece.from, piece.to, point);
+                let enough = LAST_STEP * (piece.to - piece.from);
+                let parameter = solve(primitive, bracket, guess, point, enough);
+                found(Minimum::at(primitive, parameter, 0.0, point));
+            }
+            Some(_) => {}
+            None => by_halves(primitive, (piece.from, piece.to), point, reach, found),
+        }
+    } else {
+        by_halves(primitive, (piece.from, piece.to), point, reach, found);
     }
+}
+
+/// [`interior_minima`] of a primitive between two parameters.
+fn by_halves(
+    primitive: &Primitive,
+    (from, to): (f64, f64),
+    point: Vector2<f64>,
+    mut reach: f64,
+    mut found: impl FnMut(Minimum) -> f64,
+) {
     let mut stack = [(0.0, 0.0, 0); MOST_SPLITS as usize + 2];
-    stack[0] = (piece.from, piece.to, 0);
+    stack[0] = (from, to, 0);
     let mut used = 1;
     while used > 0 {
         used -= 1;
@@ -52,19 +86,17 @@ pub(super) fn interior_minima(
         if to_chord > reach + sagitta(primitive, from, to) {
             continue;
         }
-        match slope_sign(primitive, from, to, point) {
+        match Middle::of(primitive, from, to).slope_sign(point) {
             Some(true) => {
-                if (low.point - point).dot(&low.first) < 0.0 && (high.point - point).dot(&high.first) > 0.0 {
-                    let parameter = solve(primitive, (from, to), from + fraction * (to - from), point);
-                    let distance = (primitive.evaluate(parameter).point - point).norm();
-                    reach = found(Minimum::At { parameter, distance, width: 0.0 });
+                if changes_sign(&low, &high, point) {
+                    let guess = from + fraction * (to - from);
+                    let parameter = solve(primitive, (from, to), guess, point, LAST_STEP * (to - from));
+                    reach = found(Minimum::at(primitive, parameter, 0.0, point));
                 }
             }
             Some(false) => {}
             None if depth == MOST_SPLITS => {
-                let parameter = 0.5 * (from + to);
-                let distance = (primitive.evaluate(parameter).point - point).norm();
-                reach = found(Minimum::At { parameter, distance, width: to - from });
+                reach = found(Minimum::at(primitive, 0.5 * (from + to), to - from, point));
             }
             None => {
                 let middle = 0.5 * (from + to);
@@ -74,6 +106,11 @@ pub(super) fn interior_minima(
             }
         }
     }
+}
+
+/// Whether g is negative at one jet and positive at the other.
+fn changes_sign(low: &Jet, high: &Jet, point: Vector2<f64>) -> bool {
+    (low.point - point).dot(&low.first) < 0.0 && (high.point - point).dot(&high.first) > 0.0
 }
 
 fn found_on_circle(
@@ -93,26 +130,14 @@ fn found_on_circle(
     let turns = libm::floor((angle - piece.from) / core::f64::consts::TAU);
     let parameter = angle - turns * core::f64::consts::TAU;
     if piece.from < parameter && parameter < piece.to {
-        found(Minimum::At { parameter, distance: (distance - radius).abs(), width: 0.0 });
+        let jet = primitive.evaluate(parameter);
+        found(Minimum::At { parameter, distance: (distance - radius).abs(), width: 0.0, jet });
     }
 }
 
-/// Whether g' is positive (true) or negative (false) on all of [from, to]; `None` if the bounds do not tell.
-fn slope_sign(primitive: &Primitive, from: f64, to: f64, point: Vector2<f64>) -> Option<bool> {
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let jet = primitive.evaluate(middle);
-    let away = jet.point - point;
-    let (second, third) = primitive.derivative_bounds(middle, half);
-    let most_speed = jet.first.norm() + half * second;
-    let most_distance = away.norm() + half * most_speed;
-    let slope = jet.first.norm_squared() + away.dot(&jet.second);
-    let change = half * (3.0 * most_speed * second + most_distance * third);
-    (slope.abs() > change).then_some(slope > 0.0)
-}
-
 /// Root of g in [low, high], where g(low) <= 0 <= g(high): Newton from `start`, bisection where Newton leaves the
-/// bracket.
-pub(super) fn solve(primitive: &Primitive, bracket: (f64, f64), start: f64, point: Vector2<f64>) -> f64 {
+/// bracket. A Newton step of no more than `enough` is the last.
+pub(super) fn solve(primitive: &Primitive, bracket: (f64, f64), start: f64, point: Vector2<f64>, enough: f64) -> f64 {
     let (mut low, mut high) = bracket;
     let tolerance = 1e-15 * low.abs().max(high.abs());
     let mut u = start.clamp(low, high);
@@ -126,8 +151,12 @@ pub(super) fn solve(primitive: &Primitive, bracket: (f64, f64), start: f64, poin
             low = u;
         }
         let newton = u - value / (jet.first.norm_squared() + away.dot(&jet.second));
-        let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-        if (next - u).abs() <= tolerance {
+        let (next, least) = if newton >= low && newton <= high {
+            (newton, tolerance.max(enough))
+        } else {
+            (0.5 * (low + high), tolerance)
+        };
+        if (next - u).abs() <= least {
             return next;
         }
         u = next;

@@ -1,6 +1,8 @@
 //! Curves of segments (2.1, 7.2): arc length, tangent, curvature, certified nearest points.
 //!
 //! A [`Curve`] lives in the formation's frame; [`Placed`] looks at it from the frame in which the formation moves.
+mod arc_table;
+mod bend;
 mod box_tree;
 mod build;
 mod directed;
@@ -16,6 +18,7 @@ mod quadrature;
 mod shape;
 mod simple;
 mod spline;
+mod warm;
 mod within;
 
 pub use encroachment::{Interval, encroached, qualified_fragments};
@@ -23,6 +26,7 @@ pub use error::CurveError;
 pub use nearest::NearestSet;
 pub use placed::Placed;
 pub use shape::CurveShape;
+pub use warm::Warm;
 
 use nalgebra::Vector2;
 
@@ -47,6 +51,8 @@ pub struct Curve {
     primitives: Vec<primitive::Primitive>,
     pieces: Vec<piece::Piece>,
     tree: box_tree::BoxTree,
+    /// Tells this curve from others, for what was learnt of it before.
+    stamp: u64,
     length: f64,
     closed: bool,
     open_start: bool,
@@ -98,7 +104,7 @@ impl Curve {
         let wanted = (arc_length - piece.offset).clamp(0.0, piece.length);
         let mut parameter = piece.from + wanted / piece.length * (piece.to - piece.from);
         for _ in 0..4 {
-            let error = quadrature::arc_length(primitive, piece.from, parameter) - wanted;
+            let error = piece.length_to(primitive, parameter) - wanted;
             let step = error / primitive.evaluate(parameter).first.norm();
             parameter = (parameter - step).clamp(piece.from, piece.to);
             if error.abs() <= 1e-15 * self.length {
@@ -113,7 +119,7 @@ impl Curve {
         if parameter == piece.to {
             return piece.offset + piece.length;
         }
-        piece.offset + quadrature::arc_length(&self.primitives[piece.primitive], piece.from, parameter)
+        piece.offset + piece.length_to(&self.primitives[piece.primitive], parameter)
     }
 
     /// First (or last) point and the tangent there.

@@ -1,5 +1,6 @@
 //! Nearest points of a curve, (7.1) and (7.2): certified, with multiplicity.
 use super::minimum::{Minimum, interior_minima, solve};
+use super::primitive::Jet;
 use super::{Curve, Foot};
 use nalgebra::Vector2;
 
@@ -25,53 +26,67 @@ enum Place {
     After(f64),
 }
 
-/// Distance, piece, parameter.
-type Candidate = (f64, usize, f64);
+/// The nearest point of the pieces looked at, so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Best {
+    pub(super) distance: f64,
+    pub(super) piece: usize,
+    parameter: f64,
+    /// The primitive there, where it is known already.
+    jet: Option<Jet>,
+}
 
 impl Curve {
     /// A nearest point of the curve: the one of least arc length if there are several on a par to the last bit.
     pub fn nearest(&self, point: Vector2<f64>) -> Foot {
-        let mut best = self.none_yet();
-        self.tree.visit_near(point, best.0, |index| self.improve(point, index, &mut best));
-        self.beyond_ends(point, best)
+        self.beyond_ends(point, self.best(point))
     }
 
-    /// [`Self::nearest`], faster where `arc_length` (m) is near its result: every piece is looked at that could be nearer, and the result
-    /// is the same.
-    pub fn nearest_from(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
+    /// The best of all pieces.
+    pub(super) fn best(&self, point: Vector2<f64>) -> Best {
         let mut best = self.none_yet();
-        self.tree.visit_near_from(self.piece_at(arc_length), point, |index| self.improve(point, index, &mut best));
-        self.beyond_ends(point, best)
+        self.tree.visit_near(point, best.distance, |index| self.improve(point, index, &mut best));
+        best
     }
 
-    fn none_yet(&self) -> Candidate {
-        (f64::INFINITY, 0, self.pieces[0].from)
+    /// The best of all pieces, quickest if the piece `first` is near it.
+    pub(super) fn best_from(&self, point: Vector2<f64>, first: usize) -> Best {
+        let mut best = self.none_yet();
+        self.tree.visit_near_from(first, point, |index| self.improve(point, index, &mut best));
+        best
+    }
+
+    pub(super) fn none_yet(&self) -> Best {
+        Best { distance: f64::INFINITY, piece: 0, parameter: self.pieces[0].from, jet: None }
     }
 
     /// Takes what a piece has that is nearer than `best`; the distance from then on.
-    fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Candidate) -> f64 {
+    pub(super) fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Best) -> f64 {
         let piece = &self.pieces[index];
-        let mut offer = |distance: f64, parameter: f64| {
-            let candidate = (distance, index, parameter);
-            if candidate < *best {
-                *best = candidate;
+        let mut offer = |distance: f64, parameter: f64, jet: Option<Jet>| {
+            if (distance, index, parameter) < (best.distance, best.piece, best.parameter) {
+                *best = Best { distance, piece: index, parameter, jet };
             }
-            best.0
+            best.distance
         };
-        offer((piece.start - point).norm(), piece.from);
-        let reach = offer((piece.end - point).norm(), piece.to);
+        offer((piece.start - point).norm(), piece.from, None);
+        let reach = offer((piece.end - point).norm(), piece.to, None);
         interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| match minimum {
-            Minimum::At { parameter, distance, .. } => offer(distance, parameter),
-            Minimum::Everywhere { distance } => offer(distance, piece.from),
+            Minimum::At { parameter, distance, jet, .. } => offer(distance, parameter, Some(jet)),
+            Minimum::Everywhere { distance } => offer(distance, piece.from, None),
         });
-        best.0
+        best.distance
     }
 
     /// The foot, on an extension if that is nearer.
-    fn beyond_ends(&self, point: Vector2<f64>, best: Candidate) -> Foot {
-        let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.0);
+    pub(super) fn beyond_ends(&self, point: Vector2<f64>, best: Best) -> Foot {
+        let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.distance);
         let extension = nearer.min_by(|a, b| a.0.total_cmp(&b.0));
-        self.foot(extension.map_or(Place::On(best.1, best.2), |(_, place)| place), point)
+        match (extension, best.jet) {
+            (Some((_, place)), _) => self.foot(place, point),
+            (None, Some(jet)) => self.foot_at(best.piece, best.parameter, &jet, point),
+            (None, None) => self.foot(Place::On(best.piece, best.parameter), point),
+        }
     }
 
     /// All nearest points, with none missed: equal to within 1e-9 (1 m + distance).
@@ -90,7 +105,7 @@ impl Curve {
             }
             interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| {
                 match minimum {
-                    Minimum::At { parameter, distance, width } if distance <= reach => {
+                    Minimum::At { parameter, distance, width, .. } if distance <= reach => {
                         places.push((Place::On(index, parameter), width * piece.length / (piece.to - piece.from)));
                     }
                     Minimum::At { .. } => {}
@@ -124,7 +139,7 @@ impl Curve {
             let end = if forward { piece.to } else { piece.from };
             if (slope(end) < 0.0) != forward {
                 let bracket = if forward { (parameter, end) } else { (end, parameter) };
-                return self.foot(Place::On(index, solve(primitive, bracket, parameter, point)), point);
+                return self.foot(Place::On(index, solve(primitive, bracket, parameter, point, 0.0)), point);
             }
             parameter = end;
             let leaves = if forward { index + 1 == count } else { index == 0 };
@@ -186,23 +201,33 @@ impl Curve {
     }
 
     fn foot(&self, place: Place, point: Vector2<f64>) -> Foot {
-        let (arc_length, on_curve, tangent, curvature) = match place {
+        let (arc_length, on_curve, tangent) = match place {
             Place::On(index, parameter) => {
                 let jet = self.primitives[self.pieces[index].primitive].evaluate(parameter);
-                let speed = jet.first.norm();
-                let curvature = jet.first.perp(&jet.second) / (speed * speed * speed);
-                (self.arc_length_at(index, parameter), jet.point, jet.first / speed, curvature)
+                return self.foot_at(index, parameter, &jet, point);
             }
             Place::Before(beyond) => {
                 let (start, tangent) = self.at_end(false);
-                (-beyond, start - beyond * tangent, tangent, 0.0)
+                (-beyond, start - beyond * tangent, tangent)
             }
             Place::After(beyond) => {
                 let (end, tangent) = self.at_end(true);
-                (self.length + beyond, end + beyond * tangent, tangent, 0.0)
+                (self.length + beyond, end + beyond * tangent, tangent)
             }
         };
-        Foot { arc_length, point: on_curve, tangent, curvature, distance: (on_curve - point).norm() }
+        Foot { arc_length, point: on_curve, tangent, curvature: 0.0, distance: (on_curve - point).norm() }
+    }
+
+    /// The foot at a parameter of a piece, where its primitive is as `jet` says.
+    fn foot_at(&self, index: usize, parameter: f64, jet: &Jet, point: Vector2<f64>) -> Foot {
+        let speed = jet.first.norm();
+        Foot {
+            arc_length: self.arc_length_at(index, parameter),
+            point: jet.point,
+            tangent: jet.first / speed,
+            curvature: jet.first.perp(&jet.second) / (speed * speed * speed),
+            distance: (jet.point - point).norm(),
+        }
     }
 
     /// One foot for each group that is one minimum (the nearest of it), none inside the ranges.

@@ -1,5 +1,5 @@
 //! Short pieces of a curve over which it turns little: the table that every query starts from.
-use super::{error::CurveError, primitive::Primitive, quadrature::arc_length};
+use super::{bend::Bend, error::CurveError, primitive::Primitive, quadrature::arc_length};
 use nalgebra::Vector2;
 
 /// Most a piece may turn, rad: within it arc length is close to linear in the parameter.
@@ -21,6 +21,24 @@ pub(super) struct Piece {
     pub(super) start: Vector2<f64>,
     pub(super) end: Vector2<f64>,
     pub(super) sagitta: f64,
+    /// What is known of it besides, unless it is straight or part of a circle.
+    pub(super) bend: Option<Box<Bend>>,
+}
+
+impl Piece {
+    /// Arc length from its start to a parameter, m.
+    pub(super) fn length_to(&self, primitive: &Primitive, parameter: f64) -> f64 {
+        let known = self.bend.as_ref().and_then(|bend| bend.arc.length_to(parameter, (self.from, self.to)));
+        known.unwrap_or_else(|| arc_length(primitive, self.from, parameter))
+    }
+
+    /// Squared distance of its chord from `point`, m^2: its sagitta tells how much nearer the piece may be.
+    pub(super) fn chord_distance_squared(&self, point: Vector2<f64>) -> f64 {
+        let (chord, offset) = (self.end - self.start, point - self.start);
+        let squared = chord.norm_squared();
+        let fraction = if squared > 0.0 { (offset.dot(&chord) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        (offset - fraction * chord).norm_squared()
+    }
 }
 
 /// Cuts `primitive` over [from, to] into pieces, appended to `pieces` from arc length `offset` on; returns the arc
@@ -39,7 +57,8 @@ pub(super) fn cut(
         if turns_little(primitive, from, to) && quadrature_converged(primitive, from, to, length) {
             let sagitta = sagitta(primitive, from, to);
             let (start, end) = (primitive.evaluate(from).point, primitive.evaluate(to).point);
-            pieces.push(Piece { primitive: index, from, to, offset: reached, length, start, end, sagitta });
+            let bend = Bend::of(primitive, from, to, length);
+            pieces.push(Piece { primitive: index, from, to, offset: reached, length, start, end, sagitta, bend });
             reached += length;
         } else if depth == MOST_SPLITS {
             return Err(CurveError::Cusp { arc_length: reached });

@@ -1,5 +1,5 @@
 //! A curve seen from the frame in which its formation moves.
-use super::{Curve, Foot, Interval, NearestSet};
+use super::{Curve, Foot, Interval, NearestSet, Warm};
 use nalgebra::{Isometry2, Vector2};
 
 /// A curve and the pose of its frame, for instance the target's: all queries are in frame `map`.
@@ -30,9 +30,9 @@ impl<'a> Placed<'a> {
         self.to_map(self.curve.nearest(self.to_curve(point)))
     }
 
-    /// As [`Curve::nearest_from`].
-    pub fn nearest_from(&self, point: Vector2<f64>, arc_length: f64) -> Foot {
-        self.to_map(self.curve.nearest_from(self.to_curve(point), arc_length))
+    /// As [`Curve::nearest_again`].
+    pub fn nearest_again(&self, point: Vector2<f64>, warm: &mut Warm) -> Foot {
+        self.to_map(self.curve.nearest_again(self.to_curve(point), warm))
     }
 
     /// As [`Curve::nearest_within`].

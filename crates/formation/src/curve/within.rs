@@ -54,7 +54,7 @@ impl Curve {
         let start = if from > low { parameter(from, piece.to) } else { piece.from };
         let end = if to < high { parameter(to, piece.from) } else { piece.to };
         let point = |parameter: f64| primitive.evaluate(parameter).point;
-        Some(Piece { from: start, to: end, start: point(start), end: point(end), ..piece.clone() })
+        Some(Piece { from: start, to: end, start: point(start), end: point(end), bend: None, ..*piece })
     }
 }
 

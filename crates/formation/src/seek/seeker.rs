@@ -1,7 +1,7 @@
 //! Steps (4) to (6) of 7.5.2 and the decision on transits.
 use super::{Fragments, LeaderRule, SeekSettings};
 use crate::Vector2;
-use crate::curve::{Foot, Interval, Placed};
+use crate::curve::{Foot, Interval, Placed, Warm};
 use crate::zoning::{Radii, Zone};
 
 /// Distances that differ by less than this (m) make a tie.
@@ -33,6 +33,7 @@ pub enum Sought {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Seeker {
     kept: Option<f64>,
+    warm: Warm,
 }
 
 impl Seeker {
@@ -54,7 +55,8 @@ impl Seeker {
         let whole = [whole];
         let free = far && settings.leader_rule == LeaderRule::WholeSegmentWhileFar;
         let intervals = if free { &whole } else { fragments.intervals() };
-        let search = Search { segment, robot, margin: settings.transit_margin, kept: self.kept };
+        let unrestricted = segment.nearest_again(robot, &mut self.warm);
+        let search = Search { segment, robot, margin: settings.transit_margin, kept: self.kept, unrestricted };
         let Some(best) = search.nearest(intervals, |_| true) else {
             self.kept = None;
             return Sought::NoFragment;
@@ -98,15 +100,14 @@ struct Search<'a> {
     robot: Vector2<f64>,
     margin: f64,
     kept: Option<f64>,
+    /// The nearest point of the whole curve.
+    unrestricted: Foot,
 }
 
 impl Search<'_> {
     /// (7.2) on those of the intervals that count; the first of equals.
     fn nearest(&self, intervals: &[Interval], counts: impl Fn(Interval) -> bool) -> Option<Foot> {
-        let unrestricted = match self.kept {
-            Some(kept) => self.segment.nearest_from(self.robot, kept),
-            None => self.segment.nearest(self.robot),
-        };
+        let unrestricted = self.unrestricted;
         let holds = |(from, to): Interval| from <= unrestricted.arc_length && unrestricted.arc_length <= to;
         if intervals.iter().any(|interval| holds(*interval) && counts(*interval)) {
             return Some(unrestricted);

@@ -1,0 +1,79 @@
+//! Nearest points of a point that moves: what is far stays far for a while.
+use super::{Curve, Foot};
+use nalgebra::Vector2;
+
+/// What the last answer proves about the next questions. It has no influence on what they are answered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Warm {
+    /// The curve it is about; 0 for none.
+    stamp: u64,
+    /// The piece with the nearest point.
+    piece: usize,
+    /// From here all pieces are at least `room` (m) away but that one and its neighbours.
+    centre: Vector2<f64>,
+    room: f64,
+}
+
+/// Taken off the room for rounding, as a part of it and of the curve's length.
+const ROUNDING: f64 = 1e-12;
+
+impl Default for Warm {
+    fn default() -> Self {
+        Self { stamp: 0, piece: 0, centre: Vector2::zeros(), room: 0.0 }
+    }
+}
+
+impl Curve {
+    /// [`Self::nearest`] for a point that was asked about before with the same `warm`: as long as it has moved little, one to three
+    /// pieces are looked at, and no other can be as near. The result is the same bit for bit.
+    pub fn nearest_again(&self, point: Vector2<f64>, warm: &mut Warm) -> Foot {
+        let known = warm.stamp == self.stamp;
+        if known {
+            let mut best = self.none_yet();
+            self.improve(point, warm.piece, &mut best);
+            if best.distance + (point - warm.centre).norm() < warm.room {
+                let [before, after] = self.beside(warm.piece);
+                for index in [before, after].into_iter().flatten() {
+                    let piece = &self.pieces[index];
+                    let reach = best.distance + piece.sagitta;
+                    if piece.chord_distance_squared(point) <= reach * reach * (1.0 + ROUNDING) + ROUNDING * self.length
+                    {
+                        self.improve(point, index, &mut best);
+                    }
+                }
+                return self.beyond_ends(point, best);
+            }
+        }
+        let best = if known { self.best_from(point, warm.piece) } else { self.best(point) };
+        let slack = ROUNDING * (self.length + best.distance);
+        *warm = Warm {
+            stamp: self.stamp,
+            piece: best.piece,
+            centre: point,
+            room: self.room_beside(best.piece, point) * (1.0 - ROUNDING) - slack,
+        };
+        self.beyond_ends(point, best)
+    }
+
+    /// A lower bound of the distance of all pieces but `index` and its neighbours.
+    fn room_beside(&self, index: usize, point: Vector2<f64>) -> f64 {
+        let [before, after] = self.beside(index);
+        let mut room = f64::INFINITY;
+        self.tree.visit_near(point, room, |other| {
+            if other != index && Some(other) != before && Some(other) != after {
+                let piece = &self.pieces[other];
+                room = room.min(piece.chord_distance_squared(point).sqrt() - piece.sagitta);
+            }
+            room.max(0.0)
+        });
+        room
+    }
+
+    /// The pieces before and after a piece.
+    fn beside(&self, index: usize) -> [Option<usize>; 2] {
+        let last = self.pieces.len() - 1;
+        let before = if index > 0 { Some(index - 1) } else { Some(last).filter(|_| self.closed) };
+        let after = if index < last { Some(index + 1) } else { Some(0).filter(|_| self.closed) };
+        [before, after]
+    }
+}
