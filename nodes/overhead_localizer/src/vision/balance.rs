@@ -18,6 +18,11 @@ pub(super) const UNIT: i32 = 64;
 
 impl Weights {
     pub(super) const NEUTRAL: Self = Self { red: UNIT, blue: UNIT };
+
+    /// The largest weight of a channel, whose noise is largest too.
+    pub(super) fn strongest(self) -> i32 {
+        self.red.max(self.blue).max(UNIT)
+    }
 }
 
 /// Every so many rows and columns a pixel is looked at.

@@ -62,9 +62,18 @@ impl<const RED: usize> Tracer<'_, RED> {
     /// Chroma in the direction of the colour; as good as none outside the image.
     #[inline]
     pub(super) fn chroma(&self, u: usize, v: usize) -> i32 {
+        match self.pixel(u, v) {
+            Some(pixel) => self.colour.sign() * chroma::<RED>(pixel, self.weights),
+            None => i32::MIN / 16,
+        }
+    }
+
+    /// None outside the image.
+    #[inline]
+    pub(super) fn pixel(&self, u: usize, v: usize) -> Option<[u8; 3]> {
         match self.frame.row(v).get(3 * u..3 * u + 3) {
-            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c], self.weights),
-            _ => i32::MIN / 16,
+            Some(&[a, b, c]) => Some([a, b, c]),
+            _ => None,
         }
     }
 

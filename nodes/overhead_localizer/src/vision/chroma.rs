@@ -17,6 +17,14 @@ pub enum Colour {
 }
 
 impl Colour {
+    /// The colour of the pad's other disc.
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Yellow => Self::Blue,
+            Self::Blue => Self::Yellow,
+        }
+    }
+
     /// The sign of this colour's chroma.
     pub(super) fn sign(self) -> i32 {
         match self {
@@ -44,7 +52,9 @@ impl Default for ColourLimits {
     }
 }
 
-/// From here on a channel may be cut off, of 255.
+/// From here on a channel may be cut off, of 255; JPEG leaves less than 255 of what was.
+const MAYBE_CUT_OFF: u8 = 235;
+/// From here on it is.
 const CUT_OFF: u8 = 250;
 
 /// The limits in integers, ratios in 1/256.
@@ -75,6 +85,26 @@ impl Classifier {
         self.judge::<RED>(pixel, weights, chroma)
     }
 
+    /// Whether what has these mean values on such a ground has at least `part` of the chroma that a disc of this colour has.
+    pub(super) fn admits<const RED: usize>(
+        &self,
+        colour: Colour,
+        inside: [f64; 3],
+        outside: [f64; 3],
+        weights: Weights,
+        part: f64,
+    ) -> bool {
+        let [inside, outside] = [inside, outside].map(|mean| mean.map(|value| (value + 0.5) as u8));
+        let own = colour.sign() * chroma::<RED>(inside, weights);
+        let ground = colour.sign() * chroma::<RED>(outside, weights);
+        let ratio = if colour == Colour::Yellow { self.yellow_ratio } else { self.blue_ratio };
+        let sum = weighted(inside[RED], weights.red) / UNIT
+            + i32::from(inside[1])
+            + weighted(inside[2 - RED], weights.blue) / UNIT;
+        f64::from(own - ground) >= part * f64::from(self.minimum)
+            && f64::from(256 * own) >= part * f64::from(ratio * sum)
+    }
+
     fn judge<const RED: usize>(&self, pixel: [u8; 3], weights: Weights, chroma: i32) -> Option<Colour> {
         let (raw_red, raw_blue) = (pixel[RED], pixel[2 - RED]);
         let (colour, ratio, weakest) = if chroma > 0 {
@@ -82,7 +112,7 @@ impl Classifier {
         } else {
             (Colour::Blue, self.blue_ratio, raw_red)
         };
-        let is_cut_off = pixel.iter().any(|value| *value >= CUT_OFF);
+        let is_cut_off = pixel.iter().any(|value| *value >= MAYBE_CUT_OFF);
         // The channel that a disc lacks is never bright: white in lamp light, cut off, is.
         if is_cut_off && weakest >= CUT_OFF {
             return None;
@@ -91,7 +121,7 @@ impl Classifier {
         let blue = weighted(raw_blue, weights.blue) / UNIT;
         // Red, green and purple things differ in red and green; yellow and blue do not.
         let (difference, limit) = if is_cut_off { (10 * (red - green).abs(), 9) } else { (2 * (red - green).abs(), 1) };
-        let excusable = is_cut_off && colour == Colour::Yellow && raw_red >= CUT_OFF && green > red;
+        let excusable = is_cut_off && colour == Colour::Yellow && raw_red >= MAYBE_CUT_OFF && green > red;
         if difference > limit * chroma.abs() && !excusable {
             return None;
         }
@@ -107,10 +137,13 @@ pub(super) fn chroma<const RED: usize>(pixel: [u8; 3], weights: Weights) -> i32 
     (red + UNIT * i32::from(pixel[1]) - 2 * blue) / UNIT
 }
 
-/// A value in white light; one that is cut off is at least what it says.
+/// A value in white light. One that is cut off is at least what it says; what lies between is weighted in between, so that
+/// noise does not make it jump.
 #[inline]
 fn weighted(value: u8, weight: i32) -> i32 {
-    i32::from(value) * if value < CUT_OFF { weight } else { weight.max(UNIT) }
+    let over = i32::from(value.clamp(MAYBE_CUT_OFF, CUT_OFF) - MAYBE_CUT_OFF);
+    let raised = weight + (weight.max(UNIT) - weight) * over / i32::from(CUT_OFF - MAYBE_CUT_OFF);
+    i32::from(value) * raised
 }
 
 #[cfg(test)]

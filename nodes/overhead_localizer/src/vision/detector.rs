@@ -1,11 +1,12 @@
 //! All discs of a frame.
 
-use super::balance::{Balance, Weights};
+use super::balance::{Balance, UNIT, Weights};
 use super::blob::Tracer;
 use super::centroid;
 use super::chroma::{Classifier, Colour, ColourLimits};
-use super::faint;
+use super::faint::{self, Faint};
 use super::frame::{ChannelOrder, Frame};
+use super::partner;
 use super::rim;
 use nalgebra::Point3;
 use trench_optics::{Camera, Pad, Pixel};
@@ -30,6 +31,8 @@ pub struct Expectation {
     pub width: f64,
     /// Along a column, pixels.
     pub height: f64,
+    /// From one disc of a pad to the other, in diameters.
+    pub spacing: f64,
 }
 
 impl Expectation {
@@ -39,7 +42,8 @@ impl Expectation {
         let mount = camera.mount();
         let scale = camera.pixels_per_metre(Point3::new(mount.x, mount.y, pad.height))?;
         // The reach of a circle's image along an axis is the length of that row of the derivative.
-        Some(Self { width: pad.disc_diameter * scale.row(0).norm(), height: pad.disc_diameter * scale.row(1).norm() })
+        let [width, height] = [0, 1].map(|axis| pad.disc_diameter * scale.row(axis).norm());
+        Some(Self { width, height, spacing: pad.disc_spacing / pad.disc_diameter })
     }
 
     fn area(&self) -> f64 {
@@ -58,6 +62,16 @@ const ROUND: [f64; 2] = [0.7, 1.25];
 
 /// Below this contrast of 510 a disc hardly stands out.
 const FAINT: i32 = 130;
+
+/// So many discs without a partner are looked at again: a frame full of colour must not take for ever.
+const MOST_PARTNERS: usize = 32;
+/// A partner has this part of the chroma that is asked of a disc without one.
+const WASHED_OUT: f64 = 0.5;
+
+/// So far a faint disc's centre may be from where its chroma has it, in radii.
+const NEAR: f64 = 0.35;
+/// With less scatter than this nothing lies over a disc: a cable adds twice as much.
+const CLEAR: f64 = 0.2;
 
 /// Above this confidence a disc is seen whole.
 const CERTAIN: f64 = 0.8;
@@ -88,10 +102,12 @@ impl Detector {
             ChannelOrder::Rgb => {
                 let weights = self.balance.look::<0>(frame);
                 self.scan::<0>(frame, weights, discs);
+                self.complete::<0>(frame, weights, discs);
             }
             ChannelOrder::Bgr => {
                 let weights = self.balance.look::<2>(frame);
                 self.scan::<2>(frame, weights, discs);
+                self.complete::<2>(frame, weights, discs);
             }
         }
     }
@@ -114,6 +130,45 @@ impl Detector {
                 }
             }
         }
+    }
+
+    /// Adds the discs that others tell of: those of pads of which one disc was found.
+    fn complete<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, discs: &mut Vec<Disc>) {
+        let Expectation { width, height, spacing } = self.expectation;
+        let away = |a: &Disc, b: &Disc| {
+            libm::hypot((a.centre.u - b.centre.u) / (spacing * width), (a.centre.v - b.centre.v) / (spacing * height))
+        };
+        let is_partner = |a: &Disc, b: &Disc| a.colour != b.colour && (away(a, b) - 1.0).abs() < 0.1;
+        let mut looks = 0;
+        for index in 0..discs.len() {
+            let Some(&disc) = discs.get(index) else { break };
+            if looks == MOST_PARTNERS || discs.len() == MOST_DISCS {
+                break;
+            }
+            if discs.iter().any(|other| is_partner(&disc, other)) {
+                continue;
+            }
+            looks += 1;
+            let found = self.partner::<RED>(frame, weights, &disc);
+            discs.extend(
+                found.filter(|it| !self.is_known(discs, it.colour, it.centre.u as usize, it.centre.v as usize)),
+            );
+        }
+    }
+
+    fn partner<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, of: &Disc) -> Option<Disc> {
+        let Expectation { width, height, spacing } = self.expectation;
+        let colour = of.colour.other();
+        let tracer = Tracer::<RED> { frame, colour, weights, longest: 0 };
+        let found =
+            partner::find(&tracer, of.centre, [spacing * width, spacing * height], [0.5 * width, 0.5 * height])?;
+        let is_coloured = self.classifier.admits::<RED>(colour, found.inside, found.outside, weights, WASHED_OUT);
+        is_coloured.then(|| Disc {
+            colour,
+            centre: found.centre,
+            area: self.expectation.area(),
+            confidence: 0.5 * of.confidence * (1.0 - found.scatter),
+        })
     }
 
     /// Whether a pixel belongs to a disc already found.
@@ -167,11 +222,16 @@ impl Detector {
         let round = measured.area / (std::f64::consts::FRAC_PI_4 * side(extent.columns) * side(extent.rows));
         let fits = (SMALLEST..LARGEST).contains(&ratio) && (ROUND[0]..ROUND[1]).contains(&round);
         let half = [0.5 * expected.width, 0.5 * expected.height];
-        let is_faint = measured.contrast < FAINT;
-        let centre = if is_faint { faint::centre(tracer, measured.centre, half) } else { None };
+        // What lifts a weak channel lifts its noise.
+        let is_faint = measured.contrast * UNIT < FAINT * tracer.weights.strongest();
+        let near = |found: &Faint| {
+            let [across, down] = [found.centre.u - measured.centre.u, found.centre.v - measured.centre.v];
+            libm::hypot(across / half[0], down / half[1]) < NEAR
+        };
+        let faint = if is_faint { faint::measure(tracer, measured.centre, half).filter(near) } else { None };
         fits.then(|| Disc {
             colour: tracer.colour,
-            centre: centre.unwrap_or(measured.centre),
+            centre: faint.map_or(measured.centre, |faint| faint.centre),
             area: measured.area,
             confidence: ratio.min(1.0 / ratio) * round.min(1.0 / round),
         })
@@ -184,9 +244,11 @@ impl Detector {
         let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
         let whole =
             inside(rim.centre.u, half[0], tracer.frame.width) && inside(rim.centre.v, half[1], tracer.frame.height);
+        // Where nothing lies over it, colours were washed out: then all of its pixels tell more than its rim.
+        let faint = faint::measure(tracer, rim.centre, half).filter(|faint| faint.scatter < CLEAR);
         whole.then(|| Disc {
             colour: tracer.colour,
-            centre: rim.centre,
+            centre: faint.map_or(rim.centre, |faint| faint.centre),
             area: rim.size * rim.size * self.expectation.area(),
             confidence: 0.5 * rim.seen,
         })

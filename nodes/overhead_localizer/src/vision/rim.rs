@@ -99,8 +99,10 @@ fn rim<const RED: usize>(
     let (mut places, mut found) = ([[0.0; 2]; DIRECTIONS], 0);
     for direction in 0..DIRECTIONS {
         let (sine, cosine) = libm::sincos(std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64);
-        let at =
-            |radius: f64| smooth(tracer, [centre[0] + half[0] * radius * cosine, centre[1] + half[1] * radius * sine]);
+        let at = |radius: f64| {
+            let place = [centre[0] + half[0] * radius * cosine, centre[1] + half[1] * radius * sine];
+            between(place, |u, v| f64::from(tracer.chroma(u, v)))
+        };
         let step = 0.5 / half[0].max(half[1]);
         let mut radius = REACH[0];
         let mut outer = at(radius);
@@ -118,12 +120,11 @@ fn rim<const RED: usize>(
     (places, found)
 }
 
-/// Chroma between four pixels.
-fn smooth<const RED: usize>(tracer: &Tracer<'_, RED>, [u, v]: [f64; 2]) -> f64 {
+/// A value between four pixels; places left of or above the image count as its edge.
+pub(super) fn between([u, v]: [f64; 2], at: impl Fn(usize, usize) -> f64) -> f64 {
     let (column, row) = (u.max(0.0), v.max(0.0));
     let (first, top) = (column as usize, row as usize);
     let (right, down) = (column - first as f64, row - top as f64);
-    let at = |u: usize, v: usize| f64::from(tracer.chroma(u, v));
     let upper = at(first, top) * (1.0 - right) + at(first + 1, top) * right;
     let lower = at(first, top + 1) * (1.0 - right) + at(first + 1, top + 1) * right;
     upper * (1.0 - down) + lower * down
@@ -132,7 +133,7 @@ fn smooth<const RED: usize>(tracer: &Tracer<'_, RED>, [u, v]: [f64; 2]) -> f64 {
 /// Centre and radius of the circle that most places lie on, in radii; None if there are too few of them.
 ///
 /// Places off the circle lose their weight from round to round (J. Tukey's biweight, its limit drawn in).
-fn fit(places: &[[f64; 2]]) -> Option<Vector3<f64>> {
+pub(super) fn fit(places: &[[f64; 2]]) -> Option<Vector3<f64>> {
     let mut circle = Vector3::new(0.0, 0.0, 1.0);
     for limit in [0.5, 0.35, 0.25, 0.17, 0.12, 2.0 * ON_RIM, 2.0 * ON_RIM, 2.0 * ON_RIM] {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
