@@ -4,8 +4,8 @@ use crate::kinematics::PointState;
 use crate::laws::Steered;
 use crate::zoning::Zone;
 
-/// What a robot does now.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a robot does now; by default nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Action {
     /// What the law says, before limits.
     pub steered: Steered,

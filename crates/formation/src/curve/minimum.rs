@@ -4,7 +4,7 @@
 //! |g''| <= 3 |p'| |p''| + |p - q| |p'''|. On an interval where these bounds give g' a sign, either one safeguarded
 //! Newton run finds the only minimum, or there is none inside; where they do not, the interval is halved. An interval
 //! is dropped when its chord is farther than the reach plus its sagitta: no minimum can be missed.
-use super::bend::Middle;
+use super::bend::{Bend, Middle};
 use super::piece::{Piece, distance_to_chord, sagitta};
 use super::primitive::{Jet, Primitive};
 use nalgebra::Vector2;
@@ -14,6 +14,9 @@ const MOST_SPLITS: u32 = 20;
 
 /// A Newton step shorter than this part of an interval on which g' has a sign is the last: what is left then is below its square.
 const LAST_STEP: f64 = 1e-8;
+
+/// A step of third order shorter than this part of the interval leaves less than rounding does.
+const SHORT: f64 = 1e-5;
 
 /// A minimum strictly inside a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,10 +57,8 @@ pub(super) fn interior_minima(
         }
         match bend.middle.slope_sign(point) {
             Some(true) if changes_sign(&bend.ends[0], &bend.ends[1], point) => {
-                let (bracket, guess) = bend.guess(piece.from, piece.to, point);
-                let enough = LAST_STEP * (piece.to - piece.from);
-                let parameter = solve(primitive, bracket, guess, point, enough);
-                found(Minimum::at(primitive, parameter, 0.0, point));
+                let (parameter, jet) = on_bend(primitive, piece, bend, point);
+                found(Minimum::At { parameter, distance: (jet.point - point).norm(), width: 0.0, jet });
             }
             Some(_) => {}
             None => by_halves(primitive, (piece.from, piece.to), point, reach, found),
@@ -65,6 +66,81 @@ pub(super) fn interior_minima(
     } else {
         by_halves(primitive, (piece.from, piece.to), point, reach, found);
     }
+}
+
+/// Where on a piece the distance is least.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Least {
+    Start,
+    End,
+    /// At a parameter, where the primitive is so.
+    Inside(f64, Jet),
+}
+
+/// The minimum of a piece on which g grows everywhere; nothing if it may not.
+pub(super) fn only_minimum(primitive: &Primitive, piece: &Piece, point: Vector2<f64>) -> Option<Least> {
+    if let Primitive::Line { start, direction } = primitive {
+        let parameter = (point - start).dot(direction);
+        return Some(if parameter <= piece.from {
+            Least::Start
+        } else if parameter >= piece.to {
+            Least::End
+        } else {
+            Least::Inside(parameter, primitive.evaluate(parameter))
+        });
+    }
+    let bend = piece.bend.as_ref().filter(|bend| bend.middle.slope_sign(point) == Some(true))?;
+    let [start, end] = &bend.ends;
+    Some(if (start.point - point).dot(&start.first) >= 0.0 {
+        Least::Start
+    } else if (end.point - point).dot(&end.first) <= 0.0 {
+        Least::End
+    } else {
+        let (parameter, jet) = on_bend(primitive, piece, bend, point);
+        Least::Inside(parameter, jet)
+    })
+}
+
+/// The minimum of a piece on which g grows and changes sign.
+fn on_bend(primitive: &Primitive, piece: &Piece, bend: &Bend, point: Vector2<f64>) -> (f64, Jet) {
+    let (bracket, guess) = bend.guess(piece.from, piece.to, point);
+    let width = piece.to - piece.from;
+    by_short_steps(primitive, bracket, guess, SHORT * width, point).unwrap_or_else(|| {
+        let parameter = solve(primitive, bracket, guess, point, LAST_STEP * width);
+        (parameter, primitive.evaluate(parameter))
+    })
+}
+
+/// The zero of g near the parameter `guess` by Halley's method. What the primitive is at the end of a step shorter than `short`
+/// follows by Taylor's series, so that most often it is evaluated but once.
+fn by_short_steps(
+    primitive: &Primitive,
+    (low, high): (f64, f64),
+    guess: f64,
+    short: f64,
+    point: Vector2<f64>,
+) -> Option<(f64, Jet)> {
+    let mut from = guess;
+    for _ in 0..3 {
+        let jet = primitive.evaluate(from);
+        let third = primitive.third(&jet)?;
+        let away = jet.point - point;
+        let (value, slope) = (away.dot(&jet.first), jet.first.norm_squared() + away.dot(&jet.second));
+        let growth = 3.0 * jet.first.dot(&jet.second) + away.dot(&third);
+        let step = -2.0 * value * slope / (2.0 * slope * slope - value * growth);
+        let parameter = from + step;
+        if !(low <= parameter && parameter <= high) {
+            return None;
+        }
+        if step.abs() < short {
+            let second = jet.second + step * third;
+            let first = jet.first + step * (jet.second + 0.5 * step * third);
+            let moved = jet.point + step * (jet.first + 0.5 * step * (jet.second + step / 3.0 * third));
+            return Some((parameter, Jet { point: moved, first, second }));
+        }
+        from = parameter;
+    }
+    None
 }
 
 /// [`interior_minima`] of a primitive between two parameters.

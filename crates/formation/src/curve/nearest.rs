@@ -1,11 +1,13 @@
 //! Nearest points of a curve, (7.1) and (7.2): certified, with multiplicity.
-use super::minimum::{Minimum, interior_minima, solve};
+use super::minimum::{Least, Minimum, interior_minima, only_minimum, solve};
 use super::primitive::Jet;
 use super::{Curve, Foot};
 use nalgebra::Vector2;
 
 /// Distances that differ by no more than this (times 1 m + the distance) are equal.
 const TIE: f64 = 1e-9;
+/// Chords are as far as they look but for this part of the square, and of the curve's length, m.
+pub(super) const CHORD: f64 = 1e-12;
 /// Minima nearer to each other along the curve than this (m) are one.
 const SAME: f64 = 1e-7;
 
@@ -52,7 +54,11 @@ impl Curve {
     /// The best of all pieces, quickest if the piece `first` is near it.
     pub(super) fn best_from(&self, point: Vector2<f64>, first: usize) -> Best {
         let mut best = self.none_yet();
-        self.tree.visit_near_from(first, point, |index| self.improve(point, index, &mut best));
+        let reach = self.improve(point, first, &mut best);
+        self.tree.visit_near(point, reach, |index| match index == first {
+            true => best.distance,
+            false => self.improve(point, index, &mut best),
+        });
         best
     }
 
@@ -63,19 +69,32 @@ impl Curve {
     /// Takes what a piece has that is nearer than `best`; the distance from then on.
     pub(super) fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Best) -> f64 {
         let piece = &self.pieces[index];
+        let primitive = &self.primitives[piece.primitive];
+        let far = best.distance + piece.sagitta;
+        if piece.chord_distance_squared(point) > far * far * (1.0 + CHORD) + CHORD * self.length {
+            return best.distance;
+        }
         let mut offer = |distance: f64, parameter: f64, jet: Option<Jet>| {
             if (distance, index, parameter) < (best.distance, best.piece, best.parameter) {
                 *best = Best { distance, piece: index, parameter, jet };
             }
             best.distance
         };
-        offer((piece.start - point).norm(), piece.from, None);
-        let reach = offer((piece.end - point).norm(), piece.to, None);
-        interior_minima(&self.primitives[piece.primitive], piece, point, reach, |minimum| match minimum {
-            Minimum::At { parameter, distance, jet, .. } => offer(distance, parameter, Some(jet)),
-            Minimum::Everywhere { distance } => offer(distance, piece.from, None),
-        });
-        best.distance
+        // On most pieces the distance has one minimum, and the ends tell where.
+        match only_minimum(primitive, piece, point) {
+            Some(Least::Start) => offer((piece.start - point).norm(), piece.from, None),
+            Some(Least::End) => offer((piece.end - point).norm(), piece.to, None),
+            Some(Least::Inside(parameter, jet)) => offer((jet.point - point).norm(), parameter, Some(jet)),
+            None => {
+                offer((piece.start - point).norm(), piece.from, None);
+                let reach = offer((piece.end - point).norm(), piece.to, None);
+                interior_minima(primitive, piece, point, reach, |minimum| match minimum {
+                    Minimum::At { parameter, distance, jet, .. } => offer(distance, parameter, Some(jet)),
+                    Minimum::Everywhere { distance } => offer(distance, piece.from, None),
+                });
+                best.distance
+            }
+        }
     }
 
     /// The foot, on an extension if that is nearer.

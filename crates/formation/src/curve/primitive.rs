@@ -67,6 +67,17 @@ impl Primitive {
         }
     }
 
+    /// The third derivative where the jet is `jet`; none where that would be as much work as another jet.
+    pub(super) fn third(&self, jet: &Jet) -> Option<Vector2<f64>> {
+        match self {
+            Self::Line { .. } => Some(Vector2::zeros()),
+            Self::Ellipse { .. } => Some(-jet.first),
+            Self::Cubic { coefficients: [.., c3] } => Some(6.0 * c3),
+            Self::Sinusoid { along, wave_number, .. } => Some(-wave_number * wave_number * (jet.first - along)),
+            Self::Graph { .. } => None,
+        }
+    }
+
     /// Upper bounds of the norms of the second and third derivative for |v - u| <= `half_width`.
     pub(super) fn derivative_bounds(&self, u: f64, half_width: f64) -> (f64, f64) {
         match self {

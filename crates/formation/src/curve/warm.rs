@@ -12,14 +12,19 @@ pub struct Warm {
     /// From here all pieces are at least `room` (m) away but that one and its neighbours.
     centre: Vector2<f64>,
     room: f64,
+    /// Whether it has helped, and how many questions no proof is tried for after one that has not.
+    helped: bool,
+    pause: u8,
 }
 
+/// A proof that did not help once costs as much as a question: the next is tried so many questions later.
+const PAUSE: u8 = 8;
 /// Taken off the room for rounding, as a part of it and of the curve's length.
 const ROUNDING: f64 = 1e-12;
 
 impl Default for Warm {
     fn default() -> Self {
-        Self { stamp: 0, piece: 0, centre: Vector2::zeros(), room: 0.0 }
+        Self { stamp: 0, piece: 0, centre: Vector2::zeros(), room: 0.0, helped: false, pause: 0 }
     }
 }
 
@@ -28,29 +33,35 @@ impl Curve {
     /// pieces are looked at, and no other can be as near. The result is the same bit for bit.
     pub fn nearest_again(&self, point: Vector2<f64>, warm: &mut Warm) -> Foot {
         let known = warm.stamp == self.stamp;
-        if known {
+        if known && warm.room > 0.0 {
             let mut best = self.none_yet();
             self.improve(point, warm.piece, &mut best);
             if best.distance + (point - warm.centre).norm() < warm.room {
                 let [before, after] = self.beside(warm.piece);
                 for index in [before, after].into_iter().flatten() {
-                    let piece = &self.pieces[index];
-                    let reach = best.distance + piece.sagitta;
-                    if piece.chord_distance_squared(point) <= reach * reach * (1.0 + ROUNDING) + ROUNDING * self.length
-                    {
-                        self.improve(point, index, &mut best);
-                    }
+                    self.improve(point, index, &mut best);
                 }
+                warm.helped = true;
                 return self.beyond_ends(point, best);
             }
         }
         let best = if known { self.best_from(point, warm.piece) } else { self.best(point) };
-        let slack = ROUNDING * (self.length + best.distance);
+        let pause = match warm {
+            Warm { pause: 1.., .. } if known => warm.pause - 1,
+            Warm { helped: false, .. } if known => PAUSE,
+            _ => 0,
+        };
+        let room = || {
+            let slack = ROUNDING * (self.length + best.distance);
+            self.room_beside(best.piece, point) * (1.0 - ROUNDING) - slack
+        };
         *warm = Warm {
             stamp: self.stamp,
             piece: best.piece,
             centre: point,
-            room: self.room_beside(best.piece, point) * (1.0 - ROUNDING) - slack,
+            room: if pause == 0 { room() } else { 0.0 },
+            helped: false,
+            pause,
         };
         self.beyond_ends(point, best)
     }

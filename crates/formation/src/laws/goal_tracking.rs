@@ -17,7 +17,7 @@ pub struct GoalTracking<T, D> {
 }
 
 /// What a law for double integrators says.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Steered {
     /// u, m/s^2, frame `map`.
     pub acceleration: Vector2<f64>,

@@ -12,7 +12,7 @@ use nalgebra::Isometry2;
 use std::sync::Arc;
 
 /// Robots below which a share is not worth a worker of its own.
-const LEAST_SHARE: usize = 64;
+const LEAST_SHARE: usize = 128;
 
 /// A chain under way.
 #[derive(Debug, Clone)]
@@ -91,20 +91,18 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             seen_deviations: &self.seen_deviations,
             vicinity: &self.vicinity,
         };
-        self.actions.clear();
+        self.actions.resize(robots.len(), Action::default());
         // Until the next tick nobody sees what the others do, so the order in which they act, and who works at it, is nothing.
         let size = robots.len().div_ceil(self.workers.count().max(1)).max(LEAST_SHARE);
         if size >= robots.len() {
             view.act(0, agents, robots, since, &mut self.actions);
         } else {
-            let mut done = vec![Vec::new(); robots.len().div_ceil(size)];
-            let team = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(&mut done);
+            let team = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(self.actions.chunks_mut(size));
             let shares = team.enumerate().map(|(share, ((agents, robots), actions))| -> Share<'_> {
                 let view = &view;
                 Box::new(move || view.act(share * size, agents, robots, since, actions))
             });
             self.workers.run(shares.collect());
-            self.actions.extend(done.into_iter().flatten());
         }
         for (deviation, action) in self.deviations.iter_mut().zip(&self.actions) {
             if action.deviation.is_finite() {
@@ -187,15 +185,15 @@ impl<T: Trench> View<'_, T> {
         agents: &mut [Agent<T>],
         robots: &mut [PointState],
         since: f64,
-        actions: &mut Vec<Action>,
+        actions: &mut [Action],
     ) {
         let step = self.scenario.step;
-        for (index, (agent, robot)) in (first..).zip(agents.iter_mut().zip(robots)) {
+        for ((index, done), (agent, robot)) in (first..).zip(actions).zip(agents.iter_mut().zip(robots)) {
             let mut action = agent.act(&self.around(index), *robot, since, step);
             let wanted = action.acceleration;
             action.acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
             *robot = robot.advanced_semi_implicit(action.acceleration, step);
-            actions.push(action);
+            *done = action;
         }
     }
 
