@@ -139,7 +139,7 @@ fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability
 fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
     match (task.options.safety, task.encroaching) {
         (Some(safety), _) => Some(safety.radius),
-        (None, Encroaching::ObstaclesAndRobots(radius)) => Some(radius),
+        (None, Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndPlaces(radius)) => Some(radius),
         (None, _) => None,
     }
 }

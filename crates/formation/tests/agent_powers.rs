@@ -68,6 +68,8 @@ proptest! {
             motion,
             goal: to_goal.then_some(goal),
             leader: (!to_goal).then_some(Leader { state: leader, deviation: 1.0 }),
+            places: &[],
+            behind: 0,
             ahead: if to_goal { &[] } else { std::slice::from_ref(&other) },
             real: &real,
             apparent: &apparent,

@@ -65,6 +65,9 @@ impl Tick {
             goal: self.drawing(settings, (&member.leader, rank), (at, acts), goal, &chain)?,
             leader: chain.leader.filter(|_| zoned).map(|ahead| ahead.leader),
             ahead: if zoned { &chain.others } else { &[] },
+            // Leader states tell of no places: who encroaches is told by where robots are.
+            places: &[],
+            behind: 0,
             real: &hulls.real,
             apparent: &hulls.apparent,
             velocities: &hulls.velocities,

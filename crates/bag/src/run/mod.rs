@@ -51,10 +51,10 @@ impl Run {
     }
 
     /// The vertex a robot makes for, m: its place in its queue where it is the first to have it, else where its goal
-    /// came to rest.
+    /// came to rest; nothing where that goes on with a target.
     #[must_use]
     pub fn vertex(&self, robot: &str) -> Option<[f64; 2]> {
-        self.queue_vertex(robot).or_else(|| self.robots.get(robot)?.goals.last().map(GoalSample::resting_place))
+        self.queue_vertex(robot).or_else(|| self.robots.get(robot)?.goals.last()?.resting_place())
     }
 
     fn queue_vertex(&self, robot: &str) -> Option<[f64; 2]> {
@@ -80,13 +80,16 @@ impl Run {
     }
 
     /// Shape error at `time`, m: the largest difference, over all pairs of robots, between their distance and that of
-    /// their vertices. Nothing with fewer than two robots that have both a pose and a vertex.
+    /// their vertices, or of their goal points then where these go on with a target. Nothing with fewer than two robots that
+    /// have both a pose and a vertex.
     #[must_use]
     pub fn shape_error(&self, time: f64) -> Option<f64> {
         let placed: Vec<_> = self
             .robots
             .iter()
-            .filter_map(|(name, track)| Some((track.pose_at(time)?.position(), self.vertex(name)?)))
+            .filter_map(|(name, track)| {
+                Some((track.pose_at(time)?.position(), self.vertex(name).or_else(|| track.goal_at(time))?))
+            })
             .collect();
         let pairs = placed.iter().enumerate().flat_map(|(i, a)| placed.iter().skip(i + 1).map(move |b| (a, b)));
         pairs.map(|(a, b)| (distance(a.0, b.0) - distance(a.1, b.1)).abs()).reduce(f64::max)

@@ -27,6 +27,9 @@ impl Pose {
     }
 }
 
+/// A velocity that holds for longer than this, s, holds until further notice.
+const FOR_GOOD: f64 = 1e9;
+
 /// A robot's goal point at one time, in the map.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct GoalSample {
@@ -47,11 +50,15 @@ impl GoalSample {
         self.velocity != [0.0, 0.0] && self.remaining > 0.0
     }
 
-    /// Where the goal point is after it has moved, m.
+    /// Where the goal point is after it has moved, m; nothing while it is carried along by a target, of which nobody knows where it stops.
     #[must_use]
-    pub fn resting_place(&self) -> [f64; 2] {
-        let remaining = if self.remaining.is_finite() { self.remaining.max(0.0) } else { 0.0 };
-        [self.position[0] + self.velocity[0] * remaining, self.position[1] + self.velocity[1] * remaining]
+    pub fn resting_place(&self) -> Option<[f64; 2]> {
+        if !self.is_moving() {
+            return Some(self.position);
+        }
+        let [x, y] = self.position;
+        (self.remaining < FOR_GOOD)
+            .then(|| [x + self.velocity[0] * self.remaining, y + self.velocity[1] * self.remaining])
     }
 }
 

@@ -1,7 +1,7 @@
 //! Runs read out of bags and tables, and judged.
 
 use std::path::Path;
-use trench_bag::run::{CsvError, Run, RunSummary, SummaryOptions, summary};
+use trench_bag::run::{CsvError, GoalSample, Pose, Run, RunSummary, SummaryOptions, Track, summary};
 use trench_bag::{BagReader, BagWriter, Stamp, WriteOptions};
 use trench_core::{Qos, RosTime};
 use trench_msgs::Message;
@@ -165,4 +165,28 @@ fn wrong_tables_are_refused_with_their_line() {
     check(&format!("{header}0,a,0,0,0,0,0,,\n1,a,zero,0,0,0,0,,\n"), number(3, "x", "zero"));
     check(&format!("{header}0,a,0,NaN,0,0,0,,\n"), number(2, "y", "NaN"));
     check(&format!("{header}0,a,0\n"), number(2, "y", ""));
+}
+
+#[test]
+fn goals_that_go_on_with_a_target_have_no_resting_place() {
+    let goal = |name: &str, time: f64, speed: f64, remaining: f64| GoalSample {
+        time,
+        position: [0.1 * time, if name == "a" { 0.0 } else { 1.0 }],
+        velocity: [speed, 0.0],
+        remaining,
+    };
+    let run = |remaining: f64| {
+        let track = |name: &str, y: f64| {
+            let pose = |time: f64| Pose { time, x: 0.1 * time, y, ..Pose::default() };
+            let goals = vec![goal(name, 0.0, 0.1, remaining), goal(name, 5.0, 0.1, remaining)];
+            (name.to_owned(), Track { poses: vec![pose(0.0), pose(10.0)], goals, ..Track::default() })
+        };
+        Run { robots: [track("a", 0.0), track("b", 1.25)].into(), ..Run::default() }
+    };
+    let carried = run(f64::MAX);
+    assert_eq!((carried.vertex("a"), carried.vertex("b")), (None, None));
+    let summary = summary(&carried, &SummaryOptions::default());
+    assert!(near(summary.final_shape_error.unwrap(), 0.25), "{summary:?}");
+    assert_eq!(summary.robots[0].final_distance, None);
+    assert_eq!(run(2.0).vertex("a"), Some([0.7, 0.0]));
 }

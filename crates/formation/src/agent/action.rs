@@ -19,6 +19,8 @@ pub struct Action {
     pub powers: Powers,
     /// The point that draws the robot, m; none while its attraction is suspended.
     pub attraction: Option<Vector2<f64>>,
+    /// The place that the robot has chosen on the segment, or its goal point, whether it draws or not, m.
+    pub place: Option<Vector2<f64>>,
     /// Distance from the nearest or goal point, whether it draws or not, m; infinite where there is none.
     pub deviation: f64,
     /// The terms of the law.

@@ -13,7 +13,9 @@ pub(super) struct Attracted {
     pub(super) attracting: Attracting,
     /// The point of the segment, where that is what draws.
     pub(super) foot: Option<Foot>,
-    /// Distance from the nearest or goal point, m.
+    /// The nearest or goal point, whether it draws or not, m.
+    pub(super) place: Option<Vector2<f64>>,
+    /// Distance from it, m.
     pub(super) deviation: f64,
 }
 
@@ -32,7 +34,7 @@ impl<T: Trench> Agent<T> {
                 Sought::Point(foot) => (Drawn::To(foot), moment.motion.at(foot.point)),
                 Sought::Tie | Sought::NoFragment => {
                     let attracting = Attracting { foot: moment.motion.at(robot), draws: false };
-                    return Attracted { attracting, foot: None, deviation: f64::INFINITY };
+                    return Attracted { attracting, foot: None, place: None, deviation: f64::INFINITY };
                 }
             },
         };
@@ -54,14 +56,15 @@ impl<T: Trench> Agent<T> {
             (Asked::Attraction, Drawn::To(foot)) => Some(foot),
             _ => None,
         };
-        Attracted { attracting, foot: on_segment, deviation }
+        Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation }
     }
 
     fn seek(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: Vector2<f64>) -> Sought {
+        let place = self.leaders_place(around);
         let leader = around.leader.map(|leader| {
             let state = leader.state.coasted(moment.since);
             let speed = (state.velocity - moment.motion.at(state.position).velocity).norm();
-            let view = LeaderView { position: state.position, distance: leader.deviation, speed };
+            let view = LeaderView { position: place.unwrap_or(state.position), distance: leader.deviation, speed };
             (view, self.settings.zoning.radii())
         });
         let whole = (0.0, around.curve.length());

@@ -26,6 +26,8 @@ pub struct Agent<T> {
     pub(super) remedy: Remedy,
     pub(super) fragments: Fragments,
     pub(super) encroachers: Option<Encroachers>,
+    /// Whether it has come to its place.
+    pub(super) arrived: bool,
     /// Time of the last action, s.
     last: Option<f64>,
     sensed: Option<f64>,
@@ -36,7 +38,7 @@ impl<T: Trench> Agent<T> {
     pub fn new(settings: AgentSettings<T>) -> Self {
         let (seeker, remedy, fragments) = (Seeker::default(), Remedy::default(), Fragments::default());
         let settings = Arc::new(settings);
-        Self { settings, seeker, remedy, fragments, encroachers: None, last: None, sensed: None }
+        Self { settings, seeker, remedy, fragments, encroachers: None, arrived: false, last: None, sensed: None }
     }
 
     /// What it was made with.
@@ -54,6 +56,7 @@ impl<T: Trench> Agent<T> {
     pub fn renew(&mut self) {
         self.seeker = Seeker::default();
         self.encroachers = None;
+        self.arrived = false;
     }
 
     /// The robot is told to rest, whatever its law says: standing still is no sign now that it is caught.
@@ -97,6 +100,7 @@ impl<T: Trench> Agent<T> {
         let step = self.last.map_or(0.0, |last| (now - last).max(0.0));
         self.last = Some(now);
         let attracted = self.attract(around, &moment, robot.position, step);
+        self.arrived = attracted.deviation <= self.settings.seeking.settled_distance;
         let mut powers = Powers::default();
         let (steered, forces) = self.law(around, &moment, robot, &attracted, &mut powers);
         let draws = attracted.attracting.draws;
@@ -107,6 +111,7 @@ impl<T: Trench> Agent<T> {
             cut_power: 0.0,
             powers,
             attraction: draws.then_some(attracted.attracting.foot.position),
+            place: attracted.place,
             deviation: attracted.deviation,
             forces,
             zone: around.leader.map(|leader| {

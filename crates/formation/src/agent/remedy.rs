@@ -38,7 +38,7 @@ pub(super) enum Drawn {
 }
 
 impl Drawn {
-    fn point(self) -> Vector2<f64> {
+    pub(super) fn point(self) -> Vector2<f64> {
         match self {
             Self::To(foot) => foot.point,
             Self::Goal(goal) => goal,

@@ -57,6 +57,10 @@ pub enum Encroaching {
     /// Robots ahead too (step (1) of 7.5.2), as obstacles of this radius (m), sought anew at every tick: those that have come to the
     /// segment, whose repulsive area reaches it. With rho_hat less the obstacles' cut no place is left in anybody's zone 2.
     ObstaclesAndRobots(f64),
+    /// The places that robots ahead have chosen, from the moment at which they choose them, as obstacles of this radius (m); and a robot
+    /// chooses its own within its leader's neutral zone, as it will be once the leader stands at its place. Beyond the thesis, where
+    /// robots learn only from those that have arrived where they cannot stay.
+    ObstaclesAndPlaces(f64),
 }
 
 /// Watching for local minima and raising guards.

@@ -1,5 +1,6 @@
 //! Encroachment of a segment by obstacles, and the fragments that are left (7.5.1).
-use super::Placed;
+use super::{Curve, Placed};
+use crate::Vector2;
 use crate::hull::Outline;
 
 /// Length (m) below which a piece of the segment is no longer halved to look for an encroachment inside.
@@ -9,33 +10,85 @@ const FINEST: f64 = 1e-6;
 pub type Interval = (f64, f64);
 
 /// Parts of the segment between two arc lengths that are nearer than `reach` (m) to any of the outlines, in order and
-/// apart. Ends are exact up to rounding. The distance changes by at most the arc length travelled, so that one value
+/// apart. Ends are exact up to rounding. The distance changes by at most the length travelled, so that one value
 /// decides a whole interval when it is far enough from `reach`; what merely touches may be missed below 1e-6 m.
 pub fn encroached(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], reach: f64) -> Vec<Interval> {
-    let mut found: Vec<Interval> = Vec::new();
+    let (curve, mut found) = (segment.curve(), Vec::new());
+    let on_curve = (within.0.max(0.0), within.1.min(curve.length()));
+    let beyond = [(within.0, within.1.min(0.0)), (within.0.max(curve.length()), within.1)];
     for outline in outlines {
         let (centre, radius) = outline.disc_around();
-        if segment.nearest(centre).distance >= reach + radius {
-            continue;
-        }
-        let excess = |arc_length: f64| outline.approach(segment.at(arc_length).point).gap - reach;
-        let mut stack = vec![within];
-        while let Some((from, to)) = stack.pop() {
-            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-            let value = excess(middle);
-            if value >= half {
-                continue;
-            }
-            if value <= -half {
-                found.push((from, to));
-            } else if half > 0.5 * FINEST {
-                stack.extend([(middle, to), (from, middle)]);
-            } else {
-                found.extend(refined((from, to), &excess));
-            }
+        curve.tree.visit_near(segment.to_curve(centre), reach + radius, |index| {
+            let excess = |point: Vector2<f64>| outline.approach(segment.point_to_map(point)).gap - reach;
+            curve.encroached_on_piece(index, on_curve, excess, &mut found);
+            reach + radius
+        });
+        for (from, to) in beyond {
+            // Arc lengths are parameters there.
+            let excess = |arc_length: f64| (outline.approach(segment.at(arc_length).point).gap - reach, 1.0);
+            below((from, to), excess, |from, to| found.push((from, to)));
         }
     }
     united(found)
+}
+
+impl Curve {
+    /// What of a piece, between two arc lengths, is where `excess` is negative.
+    fn encroached_on_piece(
+        &self,
+        index: usize,
+        within: Interval,
+        excess: impl Fn(Vector2<f64>) -> f64,
+        found: &mut Vec<Interval>,
+    ) {
+        let Some(part) = self.part_of_piece(index, within) else { return };
+        let primitive = &self.primitives[part.primitive];
+        let longest = 0.5 * (part.to - part.from);
+        let (second, _) = primitive.derivative_bounds(0.5 * (part.from + part.to), longest);
+        let value = |parameter: f64| {
+            let jet = primitive.evaluate(parameter);
+            (excess(jet.point), jet.first.norm() + longest * second)
+        };
+        below((part.from, part.to), value, |from, to| {
+            let arc_length = |parameter: f64| self.arc_length_at(index, parameter).clamp(within.0, within.1);
+            found.push((arc_length(from), arc_length(to)));
+        });
+    }
+}
+
+/// Calls `found`, in order, with the longest parameter intervals where a function is negative. `function` gives its value and a bound of
+/// its slope anywhere.
+fn below(whole: Interval, function: impl Fn(f64) -> (f64, f64), mut found: impl FnMut(f64, f64)) {
+    let mut open: Option<Interval> = None;
+    let mut stack = if whole.1 > whole.0 { vec![whole] } else { Vec::new() };
+    while let Some((from, to)) = stack.pop() {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let (value, slope) = function(middle);
+        let change = half * slope;
+        if value >= change {
+            continue;
+        }
+        let negative = if value <= -change {
+            Some((from, to))
+        } else if change > 0.5 * FINEST {
+            stack.extend([(middle, to), (from, middle)]);
+            continue;
+        } else {
+            refined((from, to), &|at| function(at).0)
+        };
+        let Some((from, to)) = negative else { continue };
+        match &mut open {
+            Some(open) if open.1 == from => open.1 = to,
+            _ => {
+                if let Some((from, to)) = open.replace((from, to)) {
+                    found(from, to);
+                }
+            }
+        }
+    }
+    if let Some((from, to)) = open {
+        found(from, to);
+    }
 }
 
 /// The encroached part of an interval across whose ends the sign may change once.
@@ -59,7 +112,7 @@ fn refined((from, to): Interval, excess: &impl Fn(f64) -> f64) -> Option<Interva
 }
 
 /// Sorts intervals and joins those that overlap or touch.
-fn united(mut intervals: Vec<Interval>) -> Vec<Interval> {
+pub(crate) fn united(mut intervals: Vec<Interval>) -> Vec<Interval> {
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
     intervals.dedup_by(|next, kept| {
         let touches = next.0 <= kept.1 + 1e-12 * (1.0 + kept.1.abs());

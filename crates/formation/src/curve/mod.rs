@@ -21,6 +21,7 @@ mod spline;
 mod warm;
 mod within;
 
+pub(crate) use encroachment::united;
 pub use encroachment::{Interval, encroached, qualified_fragments};
 pub use error::CurveError;
 pub use nearest::NearestSet;

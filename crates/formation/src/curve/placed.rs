@@ -73,12 +73,16 @@ impl<'a> Placed<'a> {
         self.map_from_curve.rotation * direction
     }
 
-    fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
+    /// A point of the curve's frame.
+    pub(super) fn point_to_map(self, point: Vector2<f64>) -> Vector2<f64> {
+        self.map_from_curve.transform_point(&point.into()).coords
+    }
+
+    pub(super) fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.inverse_transform_point(&point.into()).coords
     }
 
     fn to_map(self, foot: Foot) -> Foot {
-        let point = self.map_from_curve.transform_point(&foot.point.into()).coords;
-        Foot { point, tangent: self.map_from_curve.rotation * foot.tangent, ..foot }
+        Foot { point: self.point_to_map(foot.point), tangent: self.map_from_curve.rotation * foot.tangent, ..foot }
     }
 }

@@ -40,7 +40,7 @@ impl Curve {
     }
 
     /// What of a piece lies between two arc lengths.
-    fn part_of_piece(&self, index: usize, (from, to): Interval) -> Option<Piece> {
+    pub(super) fn part_of_piece(&self, index: usize, (from, to): Interval) -> Option<Piece> {
         let piece = &self.pieces[index];
         let (low, high) = (piece.offset, piece.offset + piece.length);
         if to < low || from > high {

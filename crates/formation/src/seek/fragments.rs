@@ -1,6 +1,6 @@
 //! Steps (1) to (3) of 7.5.2: what obstacles and robots ahead leave of a segment.
 use crate::Vector2;
-use crate::curve::{Interval, Placed, encroached, qualified_fragments};
+use crate::curve::{Interval, Placed, encroached, qualified_fragments, united};
 use crate::hull::{ApparentObstacle, HullError, Obstacle, Outline, Shape, combine_unless};
 
 /// The qualified fragments of a segment for one robot, S_fg of 7.5.1: arc length intervals in order and apart.
@@ -39,8 +39,41 @@ impl Fragments {
     /// Steps (2) and (3): what is left of `within` (finite) by repulsive zones that reach `clearance` (m) beyond the outlines,
     /// without pieces shorter than `room` (m). On a closed curve a fragment across the point where arc lengths begin counts as two.
     pub fn find(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], clearance: f64, room: f64) -> Self {
-        let encroached = encroached(segment, within, outlines, clearance);
-        Self { intervals: qualified_fragments(within, &encroached, room) }
+        Self::beside(within, &encroached(segment, within, outlines, clearance), room)
+    }
+
+    /// What is left of `within` by the intervals that are taken, in any order, without pieces shorter than `room` (m).
+    pub fn beside<'a>(within: Interval, taken: impl IntoIterator<Item = &'a Interval>, room: f64) -> Self {
+        let taken = united(taken.into_iter().copied().collect());
+        Self { intervals: qualified_fragments(within, &taken, room) }
+    }
+
+    /// What of the fragments lies in intervals (in order and apart), without pieces shorter than `room` (m); nothing where no piece is left.
+    pub fn meeting(&self, intervals: &[Interval], room: f64) -> Option<Self> {
+        let meet = |(from, to): &Interval| {
+            let (from, to) = (*from, *to);
+            intervals.iter().map(move |interval| (from.max(interval.0), to.min(interval.1)))
+        };
+        let pieces = self.intervals.iter().flat_map(meet).filter(|(from, to)| to - from >= room && to > from);
+        let intervals: Vec<Interval> = pieces.collect();
+        (!intervals.is_empty()).then_some(Self { intervals })
+    }
+
+    /// Fragments that are no more than `gap` (m) apart along the segment, from where to where, with how many robots at least find places
+    /// there, `pitch` (m) from each other: they choose one after the other, and what a robot leaves beside it may be just too short.
+    pub fn groups(&self, gap: f64, pitch: f64) -> Vec<(Interval, usize)> {
+        let mut groups: Vec<(Interval, usize)> = Vec::new();
+        for &(from, to) in &self.intervals {
+            let places = libm::floor((to - from) / (2.0 * pitch)) as usize + 1;
+            match groups.last_mut() {
+                Some((span, sum)) if from - span.1 <= gap => {
+                    span.1 = to;
+                    *sum += places;
+                }
+                _ => groups.push(((from, to), places)),
+            }
+        }
+        groups
     }
 
     /// The fragments; none if the whole segment is covered.

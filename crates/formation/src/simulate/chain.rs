@@ -29,6 +29,8 @@ pub struct ChainSimulation<T> {
     /// Distances from the nearest points at the last step, m.
     pub(super) deviations: Vec<f64>,
     seen_deviations: Vec<f64>,
+    /// The places that robots had chosen at the last tick, else where they were, m.
+    seen_places: Vec<Vector2<f64>>,
     pub(super) actions: Vec<Action>,
     vicinity: Vicinity,
     workers: Arc<dyn Workers + Send + Sync>,
@@ -59,6 +61,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             agents: vec![Agent::new(scenario.agent()); count],
             deviations: vec![f64::INFINITY; count],
             seen_deviations: vec![f64::INFINITY; count],
+            seen_places: scenario.robots.iter().map(|robot| robot.position).collect(),
             actions: Vec::with_capacity(count),
             vicinity: Vicinity::default(),
             workers: Arc::new(Alone),
@@ -89,6 +92,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             velocities,
             seen,
             seen_deviations: &self.seen_deviations,
+            seen_places: &self.seen_places,
             vicinity: &self.vicinity,
         };
         self.actions.resize(robots.len(), Action::default());
@@ -126,6 +130,9 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         }
         self.seen.copy_from_slice(&self.robots);
         self.seen_deviations.copy_from_slice(&self.deviations);
+        for ((seen, robot), action) in self.seen_places.iter_mut().zip(&self.robots).zip(&self.actions) {
+            *seen = action.place.unwrap_or(robot.position);
+        }
         let moves = self.scenario.moves();
         if moves {
             let time = self.time();
@@ -134,7 +141,8 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         self.vicinity.look(&self.scenario, &self.seen, &self.real);
-        let encroach = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_));
+        let encroach =
+            matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_));
         if moves || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;
         }
@@ -153,6 +161,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             velocities,
             seen,
             seen_deviations: &self.seen_deviations,
+            seen_places: &self.seen_places,
             vicinity: &self.vicinity,
         };
         for (index, agent) in agents.iter_mut().enumerate() {
@@ -174,6 +183,7 @@ struct View<'a, T> {
     velocities: &'a [Vector2<f64>],
     seen: &'a [PointState],
     seen_deviations: &'a [f64],
+    seen_places: &'a [Vector2<f64>],
     vicinity: &'a Vicinity,
 }
 
@@ -211,6 +221,8 @@ impl<T: Trench> View<'_, T> {
                 .checked_sub(1)
                 .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] }),
             ahead: self.vicinity.ahead(self.scenario, self.seen, index),
+            places: &self.seen_places[..index],
+            behind: self.seen.len() - index - 1,
             real: self.real,
             apparent: self.apparent,
             velocities: self.velocities,

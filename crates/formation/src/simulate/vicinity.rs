@@ -92,7 +92,7 @@ impl Vicinity {
 
 /// How far robots act on each other by their potentials until the next tick, m; nothing if that has no bound, or all matter.
 fn reach_of_potentials<T>(scenario: &ChainScenario<T>) -> Option<f64> {
-    if matches!(scenario.encroaching, Encroaching::ObstaclesAndRobots(_)) {
+    if matches!(scenario.encroaching, Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_)) {
         return None;
     }
     let later = match (scenario.steps_per_tick, scenario.options.limits) {

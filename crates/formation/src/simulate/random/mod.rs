@@ -59,7 +59,7 @@ pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
             settled_speed: 0.05,
             leader_rule: LeaderRule::StepSix,
         },
-        encroaching: Encroaching::ObstaclesAndRobots(radii.rho_hat - CUT),
+        encroaching: Encroaching::ObstaclesAndPlaces(radii.rho_hat - CUT),
         remedies: Some(Remedies { watch: WatchSettings { radius: 0.15, patience: 2.0, arrived: 0.1 }, rising: 0.3 }),
         options: Options {
             limits: Some(CAPABILITY),
