@@ -13,7 +13,7 @@ pub use law::{ChosenLaw, GoalLaw};
 pub use measures::{CaseSummary, Measures, ObstacleSummary, RobotSummary, Summary};
 pub use read::{is_scenario, parse};
 pub use scenario::{
-    Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating, RegulatingCase, Scenario, Seat, Start, Task,
-    Timing,
+    Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating, RegulatingCase,
+    Scenario, Seat, Start, Task, Timing,
 };
 pub use simulation::{RunError, Sample, Simulation};

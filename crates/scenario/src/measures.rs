@@ -79,7 +79,8 @@ pub struct Measures {
     last_away: Vec<f64>,
     leader_range: Vec<[f64; 2]>,
     closest: Vec<f64>,
-    gaps: Vec<(u32, f64)>,
+    /// By case: id of each obstacle and the least gap from it, m.
+    gaps: Vec<Vec<(u32, f64)>>,
     last_outside: Vec<f64>,
     in_zone_1: Vec<f64>,
     last: (f64, Vec<Sample>),
@@ -96,7 +97,7 @@ impl Measures {
             last_away: vec![-1.0; count],
             leader_range: vec![[f64::INFINITY, 0.0]; count],
             closest: vec![f64::INFINITY; cases],
-            gaps: Vec::new(),
+            gaps: vec![Vec::new(); cases],
             last_outside: vec![-1.0; cases],
             in_zone_1: vec![0.0; cases],
             last: (0.0, Vec::new()),
@@ -129,11 +130,14 @@ impl Measures {
             }
         }
         if let Some((real, _)) = simulation.obstacles() {
-            self.gaps.resize(real.len(), (0, f64::INFINITY));
-            for (obstacle, (id, gap)) in real.iter().zip(&mut self.gaps) {
-                let outline = obstacle.shape.outline();
-                *id = obstacle.id;
-                *gap = samples.iter().map(|sample| outline.approach(sample.position).gap).fold(*gap, f64::min);
+            for gaps in &mut self.gaps {
+                gaps.resize(real.len(), (0, f64::INFINITY));
+            }
+            for (sample, seat) in samples.iter().zip(&self.seats) {
+                for (obstacle, (id, gap)) in real.iter().zip(&mut self.gaps[seat.case]) {
+                    *id = obstacle.id;
+                    *gap = gap.min(obstacle.shape.outline().approach(sample.position).gap);
+                }
             }
         }
         self.last.0 = time;
@@ -182,7 +186,7 @@ impl Measures {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
             closest_pair: (robots.len() > 1).then_some(self.closest[case]),
-            obstacles: self.gaps.iter().map(|&(id, least_gap)| ObstacleSummary { id, least_gap }).collect(),
+            obstacles: self.gaps[case].iter().map(|&(id, least_gap)| ObstacleSummary { id, least_gap }).collect(),
             neutral_after: if has_leaders { since(self.last_outside[case]) } else { None },
             in_zone_1: self.in_zone_1[case],
             robots,

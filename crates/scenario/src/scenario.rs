@@ -2,6 +2,7 @@
 
 use crate::{ChosenLaw, GoalLaw};
 use trench_formation::Vector2;
+use trench_formation::compared::{AnyGuide, Course};
 use trench_formation::curve::CurveShape;
 use trench_formation::kinematics::{PointState, Pose};
 use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
@@ -22,8 +23,32 @@ pub struct Scenario {
     pub timing: Timing,
     /// What is simulated.
     pub task: Task,
+    /// Other methods of 7.8, for a robot that starts where the chain's only one does.
+    pub compared: Option<Compared>,
     /// The pictures that the thesis shows of it.
     pub figures: Vec<Figure>,
+}
+
+/// What apparent obstacles are compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// What legends say of the scheme itself.
+    pub label: String,
+    /// The others.
+    pub cases: Vec<ComparedCase>,
+}
+
+/// A robot under another method (7.8).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedCase {
+    /// Part of its robot's name.
+    pub name: String,
+    /// What legends say.
+    pub label: String,
+    /// Its walls and potentials.
+    pub course: Course,
+    /// What leads it besides.
+    pub guide: AnyGuide,
 }
 
 /// When and how.
@@ -192,7 +217,12 @@ impl Scenario {
         match &self.task {
             Task::Regulating(task) => task.cases.iter().map(|case| (&*case.name, &*case.label)).collect(),
             Task::GoalTracking(task) => task.cases.iter().map(|case| (&*case.name, &*case.label)).collect(),
-            Task::Directed(_) | Task::Nearest(..) => vec![("", &*self.name)],
+            Task::Directed(_) | Task::Nearest(..) => match &self.compared {
+                Some(compared) => core::iter::once(("apparent", &*compared.label))
+                    .chain(compared.cases.iter().map(|case| (&*case.name, &*case.label)))
+                    .collect(),
+                None => vec![("", &*self.name)],
+            },
             Task::Launch(_) => Vec::new(),
         }
     }

@@ -1,8 +1,9 @@
 //! Running a scenario.
 
 use crate::law::ChosenLaw;
-use crate::{GoalLaw, Scenario, Task};
+use crate::{ComparedCase, GoalLaw, Scenario, Task};
 use trench_formation::Vector2;
+use trench_formation::compared::{AnyGuide, Trip};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::Steered;
@@ -59,7 +60,7 @@ enum Running {
     Regulating(Vec<Regulation<ChosenLaw>>),
     Goals(WaveGoals, Vec<(GoalTeam, GoalLaw)>),
     Directed(Box<ZonedChain<AnyTrench>>),
-    Nearest(Box<ChainSimulation<AnyTrench>>),
+    Nearest(Box<ChainSimulation<AnyTrench>>, Vec<Trip<AnyGuide>>),
 }
 
 /// A scenario under way.
@@ -96,7 +97,13 @@ impl Simulation {
             Task::Directed(task) => {
                 Running::Directed(Box::new(ZonedChain::new(task.chain.clone(), timing.integration, timing.step)))
             }
-            Task::Nearest(chain, _) => Running::Nearest(Box::new(ChainSimulation::new((**chain).clone())?)),
+            Task::Nearest(chain, _) => {
+                let start = chain.robots.first().map_or_else(Vector2::zeros, |robot| robot.position);
+                let trip = |case: &ComparedCase| Trip::new(case.course.clone(), case.guide.clone(), start);
+                let compared = scenario.compared.iter().flat_map(|compared| &compared.cases);
+                let trips = compared.map(trip).collect::<Result<_, _>>().map_err(ScenarioError::from)?;
+                Running::Nearest(Box::new(ChainSimulation::new((**chain).clone())?), trips)
+            }
             Task::Launch(_) => return Err(RunError::Launch),
         };
         let names: Vec<String> = scenario.seats().into_iter().map(|seat| seat.name).collect();
@@ -117,7 +124,10 @@ impl Simulation {
                 }
             }
             Running::Directed(chain) => chain.step(),
-            Running::Nearest(chain) => chain.step()?,
+            Running::Nearest(chain, trips) => {
+                chain.step()?;
+                trips.iter_mut().for_each(|trip| trip.step(self.step));
+            }
         }
         self.steps += 1;
         Ok(())
@@ -155,13 +165,17 @@ impl Simulation {
                     samples.push(of_point(*robot, steered, Some(point), (point - robot.position).norm()));
                 }
             }
-            Running::Nearest(chain) => {
+            Running::Nearest(chain, trips) => {
                 for (index, robot) in chain.robots().iter().enumerate() {
                     let action = chain.actions().get(index);
                     let goal = action.and_then(|action| action.attraction);
                     let deviation = chain.deviations().get(index).copied().unwrap_or(f64::INFINITY);
                     samples.push(of_point(*robot, action.map(|action| action.steered), goal, deviation));
                 }
+                samples.extend(trips.iter().map(|trip| {
+                    let (robot, goal) = (trip.robot(), trip.goal());
+                    of_point(robot, None, Some(goal), (goal - robot.position).norm())
+                }));
             }
         }
         for ((sample, heading), name) in samples.iter_mut().zip(&mut self.headings).zip(&self.names) {
@@ -181,7 +195,7 @@ impl Simulation {
     #[must_use]
     pub fn obstacles(&self) -> Option<(&[Obstacle], &[ApparentObstacle])> {
         match &self.running {
-            Running::Nearest(chain) => Some((chain.real_obstacles(), chain.obstacles())),
+            Running::Nearest(chain, _) => Some((chain.real_obstacles(), chain.obstacles())),
             _ => None,
         }
     }

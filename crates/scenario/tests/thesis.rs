@@ -179,3 +179,15 @@ fn the_same_numbers_twice() {
     };
     assert_eq!(bits(), bits());
 }
+
+/// Fig. 7.15: each method from the same start.
+#[test]
+fn methods_of_7_8_side_by_side() {
+    let (summary, _) = run_with("7.15.yaml", &[]);
+    let arrives: Vec<bool> = summary.cases.iter().map(|case| case.conforms_after.is_some()).collect();
+    assert_eq!(arrives, [true, false, false, true, true], "{summary:?}");
+    let least = |case: &CaseSummary| case.obstacles.iter().map(|obstacle| obstacle.least_gap).fold(f64::MAX, f64::min);
+    assert!(summary.cases.iter().all(|case| least(case) > 0.1), "{summary:?}");
+    // The scheme keeps the robot out of the troughs, farther from their walls than any other.
+    assert!(summary.cases[1..].iter().all(|case| least(case) < least(&summary.cases[0])), "{summary:?}");
+}

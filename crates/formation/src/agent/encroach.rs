@@ -15,7 +15,7 @@ const MOVED: f64 = 0.005;
 pub(super) struct Encroachers {
     map_from_segment: Isometry2<f64>,
     real: Vec<Obstacle>,
-    robots: Vec<Vector2<f64>>,
+    pub(super) robots: Vec<Vector2<f64>>,
     /// What each hull takes of the segment: the next time most hulls are the same.
     hulls: Vec<(Shape, Vec<Interval>)>,
 }
@@ -30,7 +30,7 @@ impl Encroachers {
 }
 
 /// Whether a robot has hardly moved.
-fn is_near(then: Vector2<f64>, now: Vector2<f64>) -> bool {
+pub(super) fn is_near(then: Vector2<f64>, now: Vector2<f64>) -> bool {
     (now - then).norm_squared() < MOVED * MOVED
 }
 
@@ -49,22 +49,28 @@ impl<T: Trench> Agent<T> {
         Ok(())
     }
 
-    fn find_among(&mut self, around: &Surroundings<'_>, robots: Vec<Vector2<f64>>, radius: f64) -> Result<(), HullError> {
+    fn find_among(
+        &mut self,
+        around: &Surroundings<'_>,
+        robots: Vec<Vector2<f64>>,
+        radius: f64,
+    ) -> Result<(), HullError> {
         if self.encroachers.as_ref().is_some_and(|known| known.still_hold(around, &robots)) {
             return Ok(());
         }
         let all = self.merge(around, &robots, radius)?;
         let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
-        let mut known = self.encroachers.take().filter(|known| known.map_from_segment == map_from_segment);
-        let mut known = known.as_mut().map_or_else(Vec::new, |known| core::mem::take(&mut known.hulls));
+        let known = self.encroachers.take().filter(|known| known.map_from_segment == map_from_segment);
+        let mut known = known.map_or_else(Vec::new, |known| known.hulls);
         let (segment, whole) = (around.moment(0.0).segment, (0.0, around.curve.length()));
-        let taken = |ApparentObstacle { shape, .. }: ApparentObstacle| {
-            match known.iter().position(|(other, _)| *other == shape) {
-                Some(index) => known.swap_remove(index),
-                None => {
-                    let intervals = encroached(&segment, whole, &[shape.outline()], self.settings.potential.cut());
-                    (shape, intervals)
-                }
+        let taken = |ApparentObstacle { shape, .. }: ApparentObstacle| match known
+            .iter()
+            .position(|(other, _)| *other == shape)
+        {
+            Some(index) => known.swap_remove(index),
+            None => {
+                let intervals = encroached(&segment, whole, &[shape.outline()], self.settings.potential.cut());
+                (shape, intervals)
             }
         };
         let hulls: Vec<(Shape, Vec<Interval>)> = all.into_iter().map(taken).collect();
@@ -72,45 +78,6 @@ impl<T: Trench> Agent<T> {
         self.fragments = self.within_reach(around, fragments);
         self.encroachers = Some(Encroachers { map_from_segment, real, robots, hulls });
         Ok(())
-    }
-
-    /// The places that robots ahead have chosen, each as it was until it has moved: the hulls of the others stay the same to the last bit.
-    fn places_held(&self, around: &Surroundings<'_>) -> Vec<Vector2<f64>> {
-        let known = self.encroachers.as_ref().map_or(&[][..], |known| &known.robots);
-        let held = |(index, now): (usize, &Vector2<f64>)| {
-            known.get(index).copied().filter(|then| is_near(*then, *now)).unwrap_or(*now)
-        };
-        around.places.iter().enumerate().map(held).collect()
-    }
-
-    /// Where the leader is going to stand, if it tells.
-    pub(super) fn leaders_place(&self, around: &Surroundings<'_>) -> Option<Vector2<f64>> {
-        let tells = matches!(self.settings.encroaching, Encroaching::ObstaclesAndPlaces(_));
-        around.leader.and(around.places.last().copied()).filter(|_| tells)
-    }
-
-    /// What of the fragments is in the leader's neutral zone once it stands at its place, and leaves room within reach for the robots
-    /// behind; where there is nowhere such room, where there is most. All fragments where none is in the zone. A robot that has come to
-    /// its place leaves it to nobody behind: obstacles that pass take room for a while only.
-    fn within_reach(&self, around: &Surroundings<'_>, fragments: Fragments) -> Fragments {
-        let Some(place) = self.leaders_place(around) else { return fragments };
-        let disc = [place];
-        let outline = Outline { points: &disc, radius: 0.0 };
-        let (segment, whole) = (around.moment(0.0).segment, (0.0, around.curve.length()));
-        let (radii, room) = (self.settings.zoning.radii(), self.settings.seeking.room);
-        let near = encroached(&segment, whole, &[outline], radii.rho);
-        let Some(within) = fragments.meeting(&near, room) else { return fragments };
-        if self.arrived {
-            return within;
-        }
-        let groups = fragments.groups(radii.rho - 2.0 * radii.rho_hat, radii.rho_hat).into_iter();
-        let reached: Vec<(Interval, usize)> =
-            groups.filter(|(span, _)| within.meeting(&[*span], room).is_some()).collect();
-        let most = reached.iter().map(|(_, places)| *places).max().unwrap_or(0);
-        let enough = most.min(around.behind + 1);
-        let spans: Vec<Interval> =
-            reached.into_iter().filter(|(_, places)| *places >= enough).map(|(span, _)| span).collect();
-        within.meeting(&spans, room).unwrap_or(within)
     }
 
     /// Step (1) of 7.5.2: the apparent obstacles with the robots ahead merged in, where these encroach; none where they do not.

@@ -7,6 +7,7 @@ mod action;
 mod attract;
 mod controller;
 mod encroach;
+mod places;
 mod remedy;
 mod settings;
 mod surroundings;

@@ -24,8 +24,8 @@ pub struct Surroundings<'a> {
     pub leader: Option<Leader>,
     /// Robots to keep from besides the leader: those ahead of it in the chain, by rank, and those of other teams in range.
     pub ahead: &'a [PointState],
-    /// Places that the robots ahead have chosen on the segment, the leader's last, m: for [`Encroaching::ObstaclesAndPlaces`](
-    /// super::Encroaching::ObstaclesAndPlaces). For a robot that has chosen none, where it is.
+    /// Places that the robots ahead have chosen on the segment, the leader's last, m; for a robot that has chosen none, where it is.
+    /// See [`Encroaching::ObstaclesAndPlaces`](super::Encroaching::ObstaclesAndPlaces).
     pub places: &'a [Vector2<f64>],
     /// How many robots of the chain come behind this one.
     pub behind: usize,

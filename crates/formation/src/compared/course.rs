@@ -49,33 +49,14 @@ impl Course {
         duration: f64,
         step: f64,
     ) -> Result<Outcome, HullError> {
-        let walls = self.walls()?;
-        let hulls: Vec<Shape> =
-            self.obstacles.iter().map(|corners| Shape::new(corners, 0.0)).collect::<Result<_, _>>()?;
-        let mut robot = PointState::at_rest(start);
-        let mut outcome =
-            Outcome { arrived: None, position: start, length: 0.0, least_gap: f64::INFINITY, recoveries: 0 };
-        for index in 0..(duration / step) as u64 {
-            let time = index as f64 * step;
-            if (self.goal - robot.position).norm() <= self.watch.arrived {
-                outcome.arrived = Some(time);
+        let mut trip = Trip::new(self.clone(), guide, start)?;
+        for _ in 0..(duration / step) as u64 {
+            if trip.outcome().arrived.is_some() {
                 break;
             }
-            let target = guide.target(self, time, robot.position);
-            let to_target = target - robot.position;
-            let mut force = to_target * (self.pull / (1.0 + to_target.norm_squared()).sqrt());
-            for (obstacle, walls) in walls.iter().enumerate() {
-                let nearest = nearest(walls, robot.position);
-                outcome.least_gap = outcome.least_gap.min(nearest.gap);
-                let hull = hulls[obstacle].outline().approach(robot.position);
-                let is_closed = guide.repelling().contains(&obstacle);
-                force += self.repulsion.push(if is_closed { hull } else { nearest }, to_target).force;
-            }
-            let before = robot.position;
-            robot = robot.advanced_semi_implicit(force - self.damping * robot.velocity, step);
-            outcome.length += (robot.position - before).norm();
+            trip.step(step);
         }
-        Ok(Outcome { position: robot.position, recoveries: guide.recoveries(), ..outcome })
+        Ok(trip.outcome())
     }
 
     /// Each obstacle's walls.
@@ -100,6 +81,74 @@ impl Course {
     pub(super) fn is_clear(&self, from: Vector2<f64>, to: Vector2<f64>, clearance: f64) -> bool {
         let count = libm::ceil((to - from).norm() / (0.25 * clearance)).max(1.0) as u32;
         (1..=count).all(|step| self.gap(from + (to - from) * (f64::from(step) / f64::from(count))) >= clearance)
+    }
+}
+
+/// A robot under way.
+#[derive(Debug, Clone)]
+pub struct Trip<G> {
+    course: Course,
+    guide: G,
+    walls: Vec<Vec<Shape>>,
+    hulls: Vec<Shape>,
+    robot: PointState,
+    time: f64,
+    outcome: Outcome,
+}
+
+impl<G: Guide> Trip<G> {
+    /// At rest at `start` (m).
+    ///
+    /// # Errors
+    /// Obstacles without a corner, or corners that are not finite.
+    pub fn new(course: Course, guide: G, start: Vector2<f64>) -> Result<Self, HullError> {
+        let walls = course.walls()?;
+        let hulls = course.obstacles.iter().map(|corners| Shape::new(corners, 0.0)).collect::<Result<_, _>>()?;
+        let outcome = Outcome { arrived: None, position: start, length: 0.0, least_gap: f64::INFINITY, recoveries: 0 };
+        Ok(Self { course, guide, walls, hulls, robot: PointState::at_rest(start), time: 0.0, outcome })
+    }
+
+    /// Advances by `step` (s), by semi-implicit Euler. A robot that has arrived stays.
+    pub fn step(&mut self, step: f64) {
+        let Self { course, guide, walls, hulls, robot, time, outcome } = self;
+        if outcome.arrived.is_some() {
+            return;
+        }
+        let target = guide.target(course, *time, robot.position);
+        let to_target = target - robot.position;
+        let mut force = to_target * (course.pull / (1.0 + to_target.norm_squared()).sqrt());
+        for (obstacle, walls) in walls.iter().enumerate() {
+            let nearest = nearest(walls, robot.position);
+            outcome.least_gap = outcome.least_gap.min(nearest.gap);
+            let hull = hulls[obstacle].outline().approach(robot.position);
+            let is_closed = guide.repelling().contains(&obstacle);
+            force += course.repulsion.push(if is_closed { hull } else { nearest }, to_target).force;
+        }
+        let before = robot.position;
+        *robot = robot.advanced_semi_implicit(force - course.damping * robot.velocity, step);
+        *time += step;
+        outcome.length += (robot.position - before).norm();
+        outcome.position = robot.position;
+        outcome.recoveries = guide.recoveries();
+        if (course.goal - robot.position).norm() <= course.watch.arrived {
+            outcome.arrived = Some(*time);
+            robot.velocity = Vector2::zeros();
+        }
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> PointState {
+        self.robot
+    }
+
+    /// Where it goes, m.
+    pub fn goal(&self) -> Vector2<f64> {
+        self.course.goal
+    }
+
+    /// What has come of it so far.
+    pub fn outcome(&self) -> Outcome {
+        self.outcome
     }
 }
 

@@ -4,7 +4,7 @@ mod course;
 mod instant_goals;
 mod virtual_obstacles;
 
-pub use course::{Course, Outcome};
+pub use course::{Course, Outcome, Trip};
 pub use instant_goals::InstantGoals;
 pub use virtual_obstacles::VirtualObstacles;
 
@@ -23,6 +23,55 @@ pub trait Guide {
     /// How often the robot had to be recovered so far.
     fn recoveries(&self) -> u32 {
         0
+    }
+}
+
+impl<G: Guide + ?Sized> Guide for &mut G {
+    fn target(&mut self, course: &Course, time: f64, robot: Vector2<f64>) -> Vector2<f64> {
+        (**self).target(course, time, robot)
+    }
+
+    fn repelling(&self) -> &[usize] {
+        (**self).repelling()
+    }
+
+    fn recoveries(&self) -> u32 {
+        (**self).recoveries()
+    }
+}
+
+/// One of the methods.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyGuide {
+    /// See [`Unguided`].
+    Unguided,
+    /// See [`VirtualObstacles`].
+    Virtual(VirtualObstacles),
+    /// See [`InstantGoals`].
+    Instant(InstantGoals),
+}
+
+impl Guide for AnyGuide {
+    fn target(&mut self, course: &Course, time: f64, robot: Vector2<f64>) -> Vector2<f64> {
+        match self {
+            Self::Unguided => course.goal,
+            Self::Virtual(guide) => guide.target(course, time, robot),
+            Self::Instant(guide) => guide.target(course, time, robot),
+        }
+    }
+
+    fn repelling(&self) -> &[usize] {
+        match self {
+            Self::Virtual(guide) => guide.repelling(),
+            Self::Unguided | Self::Instant(_) => &[],
+        }
+    }
+
+    fn recoveries(&self) -> u32 {
+        match self {
+            Self::Virtual(guide) => guide.recoveries(),
+            Self::Unguided | Self::Instant(_) => 0,
+        }
     }
 }
 

@@ -81,3 +81,33 @@ impl Fragments {
         &self.intervals
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fragments(intervals: &[Interval]) -> Fragments {
+        Fragments { intervals: intervals.to_vec() }
+    }
+
+    #[test]
+    fn fragments_meet_intervals_in_order() {
+        let free = fragments(&[(0.0, 2.0), (4.0, 9.0)]);
+        assert_eq!(free.meeting(&[(1.0, 5.0), (8.95, 12.0)], 0.1), Some(fragments(&[(1.0, 2.0), (4.0, 5.0)])));
+        assert_eq!(free.meeting(&[(2.5, 3.5)], 0.0), None);
+    }
+
+    #[test]
+    fn groups_count_places_whoever_chooses_what() {
+        // 17 m hold nine robots at least: eight in the middle of what is left, 1.99 m apart, and one at an end.
+        let free = fragments(&[(0.0, 17.0), (19.0, 25.0), (36.0, 38.5)]);
+        assert_eq!(free.groups(5.0, 1.0), [((0.0, 25.0), 9 + 4), ((36.0, 38.5), 2)]);
+        assert_eq!(free.groups(1.0, 1.0).len(), 3);
+    }
+
+    #[test]
+    fn what_is_taken_may_overlap() {
+        let taken = [(5.0, 7.0), (1.0, 2.0), (6.0, 8.0)];
+        assert_eq!(Fragments::beside((0.0, 9.0), &taken, 1.5), fragments(&[(2.0, 5.0)]));
+    }
+}

@@ -141,8 +141,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         self.vicinity.look(&self.scenario, &self.seen, &self.real);
-        let encroach =
-            matches!(self.scenario.encroaching, Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_));
+        let encroach = matches!(
+            self.scenario.encroaching,
+            Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_)
+        );
         if moves || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;
         }

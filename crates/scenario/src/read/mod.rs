@@ -2,6 +2,7 @@
 
 mod chain;
 mod common;
+mod compared;
 mod figures;
 mod goals;
 mod regulating;
@@ -66,7 +67,11 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
         Some(_) => common::positive(&map, "tolerance")?,
         None => 0.05,
     };
-    let mut scenario = Scenario { name, section, tolerance, timing, task, figures: Vec::new() };
+    let compared = match (&task, map.opt_map("compared")?) {
+        (Task::Nearest(chain, _), Some(compared)) => Some(compared::read(&map, &compared, chain)?),
+        _ => None,
+    };
+    let mut scenario = Scenario { name, section, tolerance, timing, task, compared, figures: Vec::new() };
     scenario.figures = figures::read(map.opt_list("figures")?, &scenario)?;
     map.finish()?;
     Ok(scenario)

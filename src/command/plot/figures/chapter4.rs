@@ -54,7 +54,7 @@ pub(super) fn solutions(figure: &Figure, critical: f64) -> Picture {
     diagram(figure, ["phi (rad)", "-k sin(2 phi) for k = K4/K2"], &curves)
 }
 
-/// Fig. 4.6 to 4.8: between its edges, K4 = (K3 - K1)/2 against K2.
+/// Fig. 4.6 to 4.8: between its edges, K4 = (K3 - K1)/2 against K2; filled where it is stable, for K2 > 0.
 pub(super) fn wedge(figure: &Figure, most: f64) -> Picture {
     let edge = |name: String, colour, slope: f64| (name, colour, vec![(0.0, 0.0), (most, most * slope)]);
     let curves = [
@@ -62,7 +62,8 @@ pub(super) fn wedge(figure: &Figure, most: f64) -> Picture {
         edge(format!("K4 = {C2} K2"), colour(0), C2),
         edge("K3 = K1".to_owned(), REFERENCE, 0.0),
     ];
-    diagram(figure, ["K2 (1/s)", "K4 = (K3 - K1)/2 (1/s)"], &curves)
+    let corners = [(0.0, 0.0), (most, most * C1), (most, most * C2)];
+    filled(figure, ["K2 (1/s)", "K4 = (K3 - K1)/2 (1/s)"], &curves, if most > 0.0 { &corners } else { &[] })
 }
 
 fn curve(name: &str, colour: RGBColor, function: impl Fn(f64) -> f64) -> Curve {
@@ -71,10 +72,14 @@ fn curve(name: &str, colour: RGBColor, function: impl Fn(f64) -> f64) -> Curve {
 }
 
 fn diagram(figure: &Figure, names: [&str; 2], curves: &[Curve]) -> Picture {
+    filled(figure, names, curves, &[])
+}
+
+fn filled(figure: &Figure, names: [&str; 2], curves: &[Curve], filled: &[(f64, f64)]) -> Picture {
     let legend: Vec<(String, RGBColor)> = curves.iter().map(|(name, colour, _)| (name.clone(), *colour)).collect();
     let lines: Vec<(RGBColor, Vec<(f64, f64)>)> =
         curves.iter().map(|(_, colour, points)| (*colour, points.clone())).collect();
     framed(figure, (&legend, ""), SMALL, |area| {
-        Diagram { names, window: figure.window, levels: &[0.0] }.draw(area, &lines)
+        Diagram { names, window: figure.window, levels: &[0.0], filled }.draw(area, &lines)
     })
 }

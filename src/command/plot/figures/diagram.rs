@@ -13,6 +13,8 @@ pub(super) struct Diagram<'a> {
     pub(super) window: Option<[f64; 4]>,
     /// Dashed horizontal lines.
     pub(super) levels: &'a [f64],
+    /// Corners of what is filled behind the curves, inside the window; none where nothing is.
+    pub(super) filled: &'a [(f64, f64)],
 }
 
 impl Diagram<'_> {
@@ -38,6 +40,9 @@ impl Diagram<'_> {
             .y_labels(8);
         mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
         mesh.draw().map_err(text)?;
+        if !self.filled.is_empty() {
+            chart.draw_series([Polygon::new(self.filled.to_vec(), REFERENCE.mix(0.15))]).map_err(text)?;
+        }
         for &level in self.levels.iter().filter(|&&level| level > bottom && level < top) {
             let dashes = DashedLineSeries::new([(left, level), (right, level)], 5 * UNIT, 4 * UNIT, line(REFERENCE, 1));
             chart.draw_series(dashes).map_err(text)?;

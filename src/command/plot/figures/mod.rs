@@ -141,7 +141,7 @@ fn over_time(
 ) -> Picture {
     let curves: Vec<_> = selection.robots.iter().map(|robot| (robot.colour, values(robot))).collect();
     framed(figure, (&selection.legend, ""), SMALL, |area| {
-        Diagram { names: ["t (s)", quantity], window: figure.window, levels }.draw(area, &curves)
+        Diagram { names: ["t (s)", quantity], window: figure.window, levels, filled: &[] }.draw(area, &curves)
     })
 }
 
