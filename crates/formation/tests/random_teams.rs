@@ -21,6 +21,9 @@ const SAMPLE: u64 = 40;
 /// they had chosen, 81 until they left room for those behind, 190 until those that had arrived stayed while obstacles pass.
 const ONCE_LATE: [u64; 14] = [2, 4, 6, 15, 16, 18, 20, 22, 34, 39, 81, 99, 113, 190];
 
+/// Seeds whose teams are late.
+const STILL_LATE: [u64; 3] = [676, 761, 765];
+
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().and_then(|text| text.parse().ok())
 }
@@ -86,6 +89,13 @@ fn random_teams_conform_and_never_collide() {
 fn seeds_that_were_once_late_conform() {
     for (seed, verdict) in verdicts(&ONCE_LATE) {
         assert!(matches!(verdict, Some(Verdict::Conforms { .. })), "seed {seed}: {verdict:?}");
+    }
+}
+
+#[test]
+fn teams_that_are_late_touch_nothing() {
+    for (seed, verdict) in verdicts(&STILL_LATE) {
+        assert!(matches!(verdict, Some(Verdict::Conforms { .. } | Verdict::Late(..))), "seed {seed}: {verdict:?}");
     }
 }
 
