@@ -5,8 +5,9 @@
 mod live_support;
 
 use live_support::{Launch, domain};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use trench_bag::run::RunSummary;
 
 fn no_contact(summary: &RunSummary) {
@@ -14,8 +15,7 @@ fn no_contact(summary: &RunSummary) {
 }
 
 /// Launches an experiment with the default profile and holds its bag against the bounds of that.
-fn tuned_profile_keeps_its_bounds(domain: u32, file: &str) {
-    let launch = Launch::new(domain);
+fn tuned_profile_keeps_its_bounds(launch: &Launch, file: &str) {
     let (status, text) = launch.run(file, &["duration:=30.0"]);
     assert!(status.success(), "{status}\n{text}");
     let summary = launch.judge(&[]);
@@ -29,12 +29,45 @@ fn tuned_profile_keeps_its_bounds(domain: u32, file: &str) {
 
 #[test]
 fn live_triangle_tuned() {
-    tuned_profile_keeps_its_bounds(domain(0), "triangle.launch.yaml");
+    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "triangle.launch.yaml");
 }
 
 #[test]
 fn live_square_tuned() {
-    tuned_profile_keeps_its_bounds(domain(0), "square.launch.yaml");
+    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "square.launch.yaml");
+}
+
+/// `trench router`, and where it listens.
+struct Router(Child, String);
+
+impl Router {
+    fn start() -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
+        command.arg("router").env("ZENOH_CONFIG_OVERRIDE", "listen/endpoints=[\"tcp/127.0.0.1:0\"]");
+        let mut router = command.stdout(Stdio::piped()).spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(router.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let place = line.split_whitespace().last().unwrap_or_default().to_owned();
+        Self(router, place)
+    }
+}
+
+impl Drop for Router {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+#[test]
+fn live_square_over_zenoh() {
+    let router = Router::start();
+    let mut launch = Launch::new(domain(0));
+    launch.variables = vec![
+        ("RMW_IMPLEMENTATION", "rmw_zenoh_cpp".to_owned()),
+        ("ZENOH_CONFIG_OVERRIDE", format!("connect/endpoints=[\"{}\"]", router.1)),
+    ];
+    tuned_profile_keeps_its_bounds(&launch, "square.launch.yaml");
 }
 
 #[test]

@@ -39,7 +39,8 @@ fn parameters() -> Vec<ParameterDescriptor> {
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let interface = Interface {
         subscriptions: vec![
-            Subscribe::to::<Image>("/overhead/image_raw", Qos::SENSOR),
+            // Told when it was published; to wake for it would delay the localizer.
+            Subscribe::to::<Image>("/overhead/image_raw", Qos::SENSOR).without_waking(),
             Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         ],
         byte_streams: vec![
@@ -92,9 +93,10 @@ impl NodeCore for Probe {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Message { port: FRAMES, .. } if self.running => {
+            Event::Message { port: FRAMES, arrived, .. } if self.running => {
                 self.frames += 1;
-                self.frame = Some(at.steady);
+                // From its publication, however late this process woke.
+                self.frame = Some(arrived.unwrap_or(at.steady));
             }
             Event::Message { port: RUN_STATE, cdr, .. } => {
                 self.running = RunState::decode(cdr).is_ok_and(|state| state.state == RunState::RUNNING);

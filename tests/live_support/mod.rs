@@ -21,6 +21,8 @@ const PROGRAMS: [&str; 8] = [
 pub(crate) struct Launch {
     pub(crate) folder: tempfile::TempDir,
     pub(crate) domain: u32,
+    /// Variables of the processes.
+    pub(crate) variables: Vec<(&'static str, String)>,
 }
 
 impl Launch {
@@ -30,7 +32,7 @@ impl Launch {
             let path = trench.with_file_name(program);
             assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
         }
-        Self { folder: tempfile::tempdir().unwrap(), domain }
+        Self { folder: tempfile::tempdir().unwrap(), domain, variables: Vec::new() }
     }
 
     fn bag(&self) -> PathBuf {
@@ -59,6 +61,7 @@ impl Launch {
             .env("ROS_DOMAIN_ID", self.domain.to_string())
             .env("TRENCH_SHM_PREFIX", self.shared_memory())
             .env("TRENCH_STATE_DIR", self.folder.path().join("state"))
+            .envs(self.variables.iter().map(|(name, value)| (name, value)))
             .output()
             .unwrap();
         let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

@@ -1,5 +1,7 @@
 //! What a core is told.
 
+use crate::Steady;
+
 /// Who sent a message, and which of its messages it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Source {
@@ -26,6 +28,9 @@ pub enum Event<'a> {
         source: Source,
         /// The bytes.
         cdr: &'a [u8],
+        /// When a process of this host wrote it, or the network brought it here, if that is known. Journals do not keep
+        /// it: it is for those who watch, whose outputs nobody replays.
+        arrived: Option<Steady>,
     },
     /// A request to `Interface::services[service]`, to be answered through `Sink::respond` with the same id.
     Request {

@@ -142,7 +142,11 @@ impl Lockstep {
             let Some(delivery) = self.bus.due.pop_front() else { return };
             match delivery {
                 Delivery::Message { to, source, cdr } => {
-                    self.handle(to.instance, Event::Message { port: to.index, source, cdr: &cdr }, observer);
+                    self.handle(
+                        to.instance,
+                        Event::Message { port: to.index, source, cdr: &cdr, arrived: None },
+                        observer,
+                    );
                 }
                 Delivery::Request { to, id, cdr } => {
                     self.handle(to.instance, Event::Request { service: to.index, id, cdr: &cdr }, observer);

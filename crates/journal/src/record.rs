@@ -147,7 +147,7 @@ impl<'a> Input<'a> {
     pub(crate) fn of(event: Event<'a>, keep_large: bool) -> Self {
         match event {
             Event::Started => Self::Started,
-            Event::Message { port, source: Source { gid, sequence }, cdr } => {
+            Event::Message { port, source: Source { gid, sequence }, cdr, .. } => {
                 Self::Message { port, gid, sequence, payload: Payload::of(cdr, keep_large) }
             }
             Event::Request { service, id, cdr } => Self::Request { service, id: id.0, cdr },
@@ -166,7 +166,7 @@ impl<'a> Input<'a> {
         Some(match *self {
             Self::Started => Event::Started,
             Self::Message { port, gid, sequence, payload: Payload::Value(cdr) } => {
-                Event::Message { port, source: Source { gid, sequence }, cdr }
+                Event::Message { port, source: Source { gid, sequence }, cdr, arrived: None }
             }
             Self::Request { service, id, cdr } => Event::Request { service, id: RequestId(id), cdr },
             Self::Response { client, cdr } => Event::Response { client, cdr },

@@ -78,7 +78,7 @@ fn echo(folder: &Path, pace: Pace) -> Journalled {
 }
 
 fn message(cdr: &[u8]) -> Event<'_> {
-    Event::Message { port: 3, source: Source { gid: [9; 16], sequence: 4 }, cdr }
+    Event::Message { port: 3, source: Source { gid: [9; 16], sequence: 4 }, cdr, arrived: None }
 }
 
 fn read(folder: &Path, name: &str) -> JournalReader {

@@ -18,6 +18,7 @@ mod lease;
 mod log;
 mod node;
 mod parameters;
+mod priority;
 mod process;
 mod reference;
 mod run;
@@ -29,5 +30,6 @@ mod transport;
 mod watchdog;
 
 pub use exit::Exit;
+pub use priority::{Turn, wait_turn};
 pub use run::{run, run_alone, run_with_arguments, run_without_journal};
 pub use transport::{RouterError, TransportError, forget_shared_memory, route};

@@ -2,6 +2,7 @@
 
 use crate::clock::steady_now;
 use crate::node::{Node, Wake};
+use crate::priority::threads_wait_turn;
 use crate::signals::Signals;
 use crate::timer::Timer;
 use crate::topics::Topics;
@@ -23,6 +24,10 @@ const OWN_TOKENS: usize = 3;
 /// How soon messages that the network did not take are offered again.
 const FLUSH_SECONDS: f64 = 0.002;
 
+/// How long after a node was woken what has come without waking is handed over, s, if nothing wakes it before: at leisure,
+/// rather than at the next frame of the camera, when every robot waits.
+const LEISURE_SECONDS: f64 = 0.004;
+
 /// How long the network may take to close.
 const LEAVING: Duration = Duration::from_secs(3);
 
@@ -39,6 +44,8 @@ pub(crate) struct Process {
     /// What each token means.
     wakes: Vec<Option<Wake>>,
     topics: Topics,
+    /// When to take what has come without waking.
+    leisure: Option<Steady>,
     pub(crate) nodes: Vec<Node>,
     /// Lives as long as the endpoints of the nodes.
     pub(crate) network: Box<dyn Network>,
@@ -50,6 +57,7 @@ impl Process {
     pub(crate) fn new(backend: Backend, domain: u16) -> Result<Self, TransportError> {
         let system = |what| move |source| TransportError::System { what, source };
         let (network, mut status) = backend.join(domain)?;
+        threads_wait_turn();
         let host = Host::join(domain)?;
         let poll = Poll::new().map_err(system("cannot make an event loop"))?;
         let timer = Timer::new().map_err(system("cannot make a timer"))?;
@@ -63,7 +71,8 @@ impl Process {
             _signals: signals,
             status,
             wakes: vec![None; OWN_TOKENS],
-            topics: Topics::default(),
+            topics: Topics::new().map_err(system("cannot make an event loop"))?,
+            leisure: None,
             nodes: Vec::new(),
             network,
             host,
@@ -100,7 +109,7 @@ impl Process {
                     SIGNALS => asked_to_end = true,
                     TIMER => self.timer.clear(),
                     STATUS => self.follow_graph(),
-                    Token(token) => self.wake(token),
+                    Token(token) => self.wake(token)?,
                 }
             }
             if asked_to_end {
@@ -114,10 +123,16 @@ impl Process {
     }
 
     /// Brings what woke the loop, and before it what has come without waking.
-    fn wake(&mut self, token: usize) {
-        self.topics.take_waiting(steady_now(), &mut self.nodes);
+    fn wake(&mut self, token: usize) -> io::Result<()> {
+        let now = steady_now();
+        self.topics.take_waiting(now, &mut self.nodes)?;
+        self.leisure = self.topics.some_wait().then(|| now.plus_seconds(LEISURE_SECONDS));
         match self.wakes.get(token).copied().flatten() {
             Some(Wake::Topic(index)) => self.topics.take(index, steady_now(), &mut self.nodes),
+            Some(Wake::Network(index)) => {
+                self.topics.network_wakes(index);
+                self.topics.take(index, steady_now(), &mut self.nodes);
+            }
             Some(Wake::Node(index, wake)) => {
                 if let Some(node) = self.nodes.get_mut(index) {
                     node.wake(wake);
@@ -125,6 +140,7 @@ impl Process {
             }
             None => {}
         }
+        Ok(())
     }
 
     fn follow_graph(&mut self) {
@@ -159,8 +175,10 @@ impl Process {
     fn tick(&mut self) -> io::Result<()> {
         let now = steady_now();
         let mut next: Option<Steady> = None;
-        if self.nodes.iter().any(|node| node.is_due(now)) {
-            self.topics.take_waiting(now, &mut self.nodes);
+        let at_leisure = self.leisure.is_some_and(|at| at <= now);
+        if at_leisure || self.nodes.iter().any(|node| node.is_due(now)) {
+            self.leisure = None;
+            self.topics.take_waiting(now, &mut self.nodes)?;
         }
         for node in &mut self.nodes {
             node.tick(now);
@@ -170,11 +188,15 @@ impl Process {
             let flush = if node.flush() { None } else { Some(now.plus_seconds(FLUSH_SECONDS)) };
             next = next.into_iter().chain(node.next_tick()).chain(flush).min();
         }
-        self.timer.set(next.into_iter().chain(self.topics.next_tick()).min())
+        self.timer.set(next.into_iter().chain(self.topics.next_tick()).chain(self.leisure).min())
     }
 
     /// Last words, and time for them to leave.
     fn end(&mut self) {
+        // Whoever watches wants all that was said until now.
+        if let Err(error) = self.topics.take_waiting(steady_now(), &mut self.nodes) {
+            self.nodes.iter_mut().for_each(|node| node.warn(&format!("the last messages are lost: {error}")));
+        }
         self.nodes.iter_mut().for_each(Node::shut_down);
         let deadline = Instant::now() + LAST_WORDS;
         self.nodes.iter_mut().for_each(|node| node.settle(deadline));

@@ -5,9 +5,11 @@
 
 use crate::node::{Connections, Node, Subscription};
 use crate::transport::TransportError;
-use crate::transport::network::GraphChange;
+use crate::transport::network::{GraphChange, NetworkReader};
 use crate::transport::shared_memory::Host;
-use rustdds::mio1::Registry;
+use rustdds::mio1::{Events, Interest, Poll, Registry, Token};
+use std::io;
+use std::time::Duration;
 use trench_core::{Event, RosTime, Steady, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
@@ -35,12 +37,26 @@ struct Topic {
 }
 
 /// All topics of a process. Tokens of the loop name them by their indices.
-#[derive(Default)]
 pub(crate) struct Topics {
     all: Vec<Topic>,
+    /// What tells which networks of topics that wake nobody have brought something. Nobody sleeps on it.
+    quiet: Poll,
+    quiet_events: Events,
 }
 
 impl Topics {
+    /// No topics yet.
+    pub(crate) fn new() -> io::Result<Self> {
+        Ok(Self { all: Vec::new(), quiet: Poll::new()?, quiet_events: Events::with_capacity(64) })
+    }
+
+    /// Has the network end of the topic that will be number `index` looked after without waking anybody.
+    pub(crate) fn look_after(&mut self, index: usize, network: &mut dyn NetworkReader) -> Result<(), TransportError> {
+        network
+            .register(self.quiet.registry(), Token(index), Interest::READABLE)
+            .map_err(|source| TransportError::System { what: "cannot look after a topic", source })
+    }
+
     /// The index that the next topic will have.
     pub(crate) fn next(&self) -> usize {
         self.all.len()
@@ -58,17 +74,24 @@ impl Topics {
         Some(&open.subscription)
     }
 
+    /// The network has brought something on topic number `index`.
+    pub(crate) fn network_wakes(&mut self, index: usize) {
+        if let Some(topic) = self.all.get_mut(index) {
+            topic.subscription.network_wakes();
+        }
+    }
+
     /// Brings what waits on topic number `index` to all who read it.
     pub(crate) fn take(&mut self, index: usize, now: Steady, nodes: &mut [Node]) {
         let Some(Topic { subscription, listeners }) = self.all.get_mut(index) else { return };
         let mut problems = Vec::new();
         subscription.drain(
             now,
-            |source, cdr| {
+            |(source, arrived), cdr| {
                 for listener in listeners.iter() {
                     let Some(node) = nodes.get_mut(listener.node) else { continue };
                     match listener.what {
-                        Heard::Port(port) => node.handle(Event::Message { port, source, cdr }),
+                        Heard::Port(port) => node.handle(Event::Message { port, source, cdr, arrived: Some(arrived) }),
                         Heard::Clock => {
                             if let Ok(message) = ClockMessage::decode(cdr) {
                                 node.set_clock(RosTime::from(&message.clock));
@@ -93,13 +116,28 @@ impl Topics {
         }
     }
 
+    /// Whether there are topics that wake nobody.
+    pub(crate) fn some_wait(&self) -> bool {
+        self.all.iter().any(|topic| !topic.subscription.wakes())
+    }
+
     /// Brings what has come on topics that wake nobody: it is handed over before the next event that does.
-    pub(crate) fn take_waiting(&mut self, now: Steady, nodes: &mut [Node]) {
+    pub(crate) fn take_waiting(&mut self, now: Steady, nodes: &mut [Node]) -> io::Result<()> {
+        if !self.some_wait() {
+            return Ok(());
+        }
+        self.quiet.poll(&mut self.quiet_events, Some(Duration::ZERO))?;
+        for event in &self.quiet_events {
+            if let Some(topic) = self.all.get_mut(event.token().0) {
+                topic.subscription.network_wakes();
+            }
+        }
         for index in 0..self.all.len() {
             if !self.all[index].subscription.wakes() {
                 self.take(index, now, nodes);
             }
         }
+        Ok(())
     }
 
     /// What time brings: shared memory that has appeared, with what is in there already, and messages that waited.

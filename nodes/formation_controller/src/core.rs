@@ -266,7 +266,7 @@ impl NodeCore for FormationController {
         self.warn(sink);
         match event {
             Event::Started => self.wakeup = Some(at.steady.plus_seconds(self.tick.settings.watchdog)),
-            Event::Message { port, source, cdr } => match self.take(at, port, source, cdr) {
+            Event::Message { port, source, cdr, .. } => match self.take(at, port, source, cdr) {
                 Ok(true) => self.drive(at, sink),
                 Ok(false) => {}
                 Err(error) => self.dropped(&error, port, sink),

@@ -75,7 +75,7 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
                 Local::SharedMemory { max_len },
             ),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
-            Advertise::of::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE, Local::NetworkOnly),
+            Advertise::of::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE, SMALL),
             Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
         ],
         ..Interface::default()

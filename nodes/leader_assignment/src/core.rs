@@ -177,7 +177,7 @@ impl NodeCore for LeaderAssignment {
                 self.started(at, sink);
                 self.wakeup = Some(at.steady.plus_seconds(1.0));
             }
-            Event::Message { port, source, cdr } => {
+            Event::Message { port, source, cdr, .. } => {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");

@@ -90,7 +90,7 @@ impl Bench {
     fn send(&mut self, topic: &str, message: &dyn Encode) {
         let port = self.core.interface().subscriptions.iter().position(|subscribe| subscribe.topic == topic).unwrap();
         let cdr = message.to_cdr();
-        self.handle(Event::Message { port, source: Default::default(), cdr: &cdr });
+        self.handle(Event::Message { port, source: Default::default(), cdr: &cdr, arrived: None });
     }
 
     fn see(&mut self, status: u8) {
@@ -105,7 +105,7 @@ impl Bench {
         let mut team = TeamState { robots: starts.into_iter().enumerate().map(robot).collect(), ..Default::default() };
         team.header.stamp = RosTime(0).plus_seconds(self.seconds).into();
         let cdr = team.to_cdr();
-        self.handle(Event::Message { port: 0, source: Default::default(), cdr: &cdr });
+        self.handle(Event::Message { port: 0, source: Default::default(), cdr: &cdr, arrived: None });
     }
 
     /// So many seconds of frames in which the robots of `speakers` say whom they hear; `silent` names radios that are down.
@@ -253,7 +253,7 @@ fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
     (target.pose.pose.orientation.w, target.pose.pose.orientation.z) = (quarter.cos(), quarter.sin());
     (target.twist.twist.linear.x, target.twist.twist.angular.z) = (0.2, 0.1);
     let cdr = target.to_cdr();
-    bench.handle(Event::Message { port: 1, source: Default::default(), cdr: &cdr });
+    bench.handle(Event::Message { port: 1, source: Default::default(), cdr: &cdr, arrived: None });
     assert!(bench.call("arm").success);
     bench.see(RobotState::STATUS_TRACKED);
     let goal = bench.last::<Goals>("/goals").unwrap().goals.remove(0);

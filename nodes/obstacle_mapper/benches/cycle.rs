@@ -114,7 +114,7 @@ impl Cycle {
     fn run(&mut self, input: &[Vec<u8>]) {
         let (at, source) = (self.at(), Source::default());
         for (port, cdr) in input.iter().enumerate().skip(1).chain(input.iter().enumerate().take(1)) {
-            self.core.handle(at, Event::Message { port, source, cdr }, &mut self.out);
+            self.core.handle(at, Event::Message { port, source, cdr, arrived: None }, &mut self.out);
         }
     }
 }

@@ -261,7 +261,7 @@ impl NodeCore for ObstacleMapper {
         match event {
             Event::Started | Event::Wakeup => self.publish(at, sink),
             Event::Matched { port: OBSTACLES, writers } => self.sources.connected(writers),
-            Event::Message { port: OBSTACLES, source, cdr } => self.obstacles(at, source.gid, cdr, sink),
+            Event::Message { port: OBSTACLES, source, cdr, .. } => self.obstacles(at, source.gid, cdr, sink),
             Event::Message { port: TEAM, cdr, .. } => match TeamState::decode(cdr) {
                 Ok(message) => {
                     self.team.take(&message);

@@ -50,7 +50,7 @@ impl Bench {
 
     fn send(&mut self, topic: &str, gid: u8, cdr: &[u8]) {
         let port = self.core.interface().subscriptions.iter().position(|reader| reader.topic == topic).unwrap();
-        self.handle(Event::Message { port, source: Source { gid: [gid; 16], sequence: 1 }, cdr });
+        self.handle(Event::Message { port, source: Source { gid: [gid; 16], sequence: 1 }, cdr, arrived: None });
     }
 
     fn header(&self) -> Header {

@@ -114,7 +114,7 @@ fn run(criterion: &mut Criterion) -> Result<(), Box<dyn Error>> {
             sequence += 1;
             let source = Source { gid: [1; 16], sequence };
             let at = Times { ros: RosTime(40_000_000 * index as i64), steady: Steady(40_000_000 * sequence) };
-            core.handle(at, Event::Message { port: 0, source, cdr: &encoded[index] }, &mut sink);
+            core.handle(at, Event::Message { port: 0, source, cdr: &encoded[index], arrived: None }, &mut sink);
         });
     });
     Ok(())

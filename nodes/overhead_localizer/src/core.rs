@@ -209,7 +209,7 @@ impl NodeCore for OverheadLocalizer {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Message { port, source, cdr } => self.message(at, port, source, cdr, sink),
+            Event::Message { port, source, cdr, .. } => self.message(at, port, source, cdr, sink),
             Event::Request { service, id, cdr } => naming::answer(&mut self.tracker, service, id, cdr, sink),
             Event::Started | Event::Wakeup => {
                 if let Some(look) = self.gather.as_mut().and_then(|gather| gather.overdue(at.steady)) {
@@ -243,6 +243,9 @@ fn intakes(settings: &Settings, parameters: &Parameters) -> Result<Vec<Intake>, 
     settings.cameras.iter().map(|view| Intake::new(settings, view, parameters)).collect()
 }
 
+/// Names of usual length leave a fifth of it free.
+const ODOMETRY_ROOM: Local = Local::SharedMemory { max_len: 1024 };
+
 fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     let write =
         |topic: String, type_info: &'static TypeInfo, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
@@ -257,7 +260,7 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
         write("/markers".to_owned(), MarkerArray::TYPE, Local::NetworkOnly),
     ];
     publications.extend(
-        tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, Local::NetworkOnly)),
+        tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, ODOMETRY_ROOM)),
     );
     publications.push(write("/identify".to_owned(), Identify::TYPE, Local::SharedMemory { max_len: 512 }));
     publications

@@ -147,7 +147,7 @@ impl NodeCore for RfBridge {
                     self.begin_stop(at, sink);
                 }
             }
-            Event::Message { port, source, cdr } => {
+            Event::Message { port, source, cdr, .. } => {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");

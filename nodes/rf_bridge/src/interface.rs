@@ -17,7 +17,7 @@ use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::sensor_msgs::{BatteryState, Range};
 use trench_msgs::std_msgs::Bool;
 use trench_msgs::std_srvs::Trigger;
-use trench_msgs::{Message, service_info};
+use trench_msgs::{Encode, Message, service_info};
 use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
 
 pub(crate) const RUN_STATE: usize = 0;
@@ -80,15 +80,26 @@ fn restored(checkpoint: Option<&[u8]>) -> (u64, bool) {
     }
 }
 
+/// What any other report of a robot surely fits in, bytes.
+const LONGEST: usize = 1024;
+
 fn interface(settings: &Settings) -> Interface {
     let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
     let mut subscriptions = vec![
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
     ];
-    let advertise =
-        |topic: String, type_info| Advertise { topic, type_info, qos: Qos::RELIABLE, local: Local::NetworkOnly };
-    let mut publications = vec![advertise("/diagnostics".to_owned(), DiagnosticArray::TYPE)];
+    // The longest is a link on which everybody is heard.
+    let robots = settings.robots.iter().map(|(name, _)| name.clone());
+    let link = LinkStatus { hears: robots.collect(), ..LinkStatus::default() };
+    let max_len = link.encoded_len().max(LONGEST);
+    let advertise = |topic: String, type_info| Advertise {
+        topic,
+        type_info,
+        qos: Qos::RELIABLE,
+        local: Local::SharedMemory { max_len },
+    };
+    let mut publications = vec![Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly)];
     for (name, _) in &settings.robots {
         subscriptions.push(Subscribe::of_type(format!("/{name}/cmd_vel"), command, Qos::RELIABLE));
         publications.push(advertise(format!("/{name}/battery_state"), BatteryState::TYPE));

@@ -228,7 +228,11 @@ mod tests {
         let state = TeamState { header, frame_number: 3, robots }.to_cdr();
         let at = |milliseconds: i64| Times { ros: RosTime(1_000_000 * milliseconds), steady: Steady(0) };
         let mut outbox = Outbox::default();
-        sender.handle(at(5040), Event::Message { port: 0, source: Source::default(), cdr: &state }, &mut outbox);
+        sender.handle(
+            at(5040),
+            Event::Message { port: 0, source: Source::default(), cdr: &state, arrived: None },
+            &mut outbox,
+        );
         // Loopback hands a packet over at once, but not always before the next instruction.
         let pads = (0..200).find_map(|_| {
             std::thread::sleep(std::time::Duration::from_millis(5));

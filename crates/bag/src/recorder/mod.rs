@@ -3,20 +3,26 @@
 //! It is a node core like any other, so that it runs in a process of its own on whatever transports the process has;
 //! unlike the cores of robots it writes files: that is its output.
 
+mod batch;
 mod discovery;
 mod topics;
 
 use crate::selection::{self, Selection};
 use crate::{BagError, BagWriter, Compression, Stamp, TopicId, WriteOptions};
+use batch::Batch;
 use std::path::Path;
 use std::time::Duration;
 use topics::subscription;
+use trench_config::params::USE_SIM_TIME;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_core::{Discovered, Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink};
-use trench_core::{StartError, Steady, Subscribe, Times};
+use trench_core::{
+    Discovered, Durability, Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink,
+};
+use trench_core::{Qos, StartError, Steady, Subscribe, Times};
 
-/// How often the open chunk's age is looked at, s.
-const LOOK: f64 = 0.1;
+/// How often what was heard is written, s. A recorder that woke for each of a thousand messages a second would take several
+/// per cent of a core; images, which are few and large, wake it.
+const BATCH: f64 = 0.05;
 /// The largest file to ask for, bytes.
 const MOST: f64 = 1e15;
 /// The exit code when a recording ended early.
@@ -78,7 +84,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     let subscriptions: Result<Vec<_>, _> = beforehand.iter().map(|name| subscription(name)).collect();
     let subscriptions = subscriptions.map_err(|(problem, remedy)| parameters.error("topics", problem, remedy))?;
     let chosen = subscriptions.into_iter().flatten().filter(|subscribe| selection.takes(&subscribe.topic));
-    let subscriptions: Vec<_> = chosen.collect();
+    let subscriptions: Vec<_> = chosen.map(without_waking).collect();
     let writer = BagWriter::create(Path::new(output), options(parameters, &subscriptions)?)
         .map_err(|error| parameters.error("output", error.to_string(), "name a new folder on a disk with space"))?;
     Ok(Box::new(Recorder {
@@ -87,9 +93,27 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         selection,
         images: parameters.bool("all")?,
         notes: Vec::new(),
+        batch: Batch::default(),
+        simulated: parameters.bool(USE_SIM_TIME)?,
         writer: Some(writer),
         next_look: Steady::default(),
     }))
+}
+
+/// Messages of a topic that may come before the next batch is written.
+const DEPTH: usize = 256;
+
+/// Small messages wait for the next batch.
+fn without_waking(subscribe: Subscribe) -> Subscribe {
+    let qos = match subscribe.qos.durability {
+        Durability::TransientLocal => subscribe.qos,
+        Durability::Volatile => Qos { depth: subscribe.qos.depth.max(DEPTH), ..subscribe.qos },
+    };
+    if discovery::is_image(subscribe.type_info.name) {
+        subscribe
+    } else {
+        Subscribe { qos, ..subscribe }.without_waking()
+    }
 }
 
 fn options(parameters: &Parameters, heard: &[Subscribe]) -> Result<WriteOptions, ConfigError> {
@@ -114,6 +138,9 @@ struct Recorder {
     images: bool,
     /// What is to be told about topics that were discovered.
     notes: Vec<(Level, String)>,
+    batch: Batch,
+    /// Whether ROS time is /clock, which stands between its messages.
+    simulated: bool,
     /// Nothing once the bag is finished.
     writer: Option<BagWriter>,
     next_look: Steady,
@@ -134,15 +161,25 @@ impl NodeCore for Recorder {
                 sink.log(Level::Info, &format!("listening to {count} topics, and to those that are discovered"));
                 self.look(at)
             }
-            Event::Message { port, source, cdr } => {
-                // Time before the epoch is none: a clock that has not started yet.
-                let log_time = u64::try_from(at.ros.0).unwrap_or(0);
+            Event::Message { port, source, cdr, arrived } => {
                 // 32 bits is what the format has; a count beyond them starts again.
                 let sequence = (source.sequence & u64::from(u32::MAX)) as u32;
-                self.write(port, Stamp { log_time, publish_time: log_time, sequence }, cdr)
+                let time = self.log_time(at, arrived);
+                if self.interface.subscriptions.get(port).is_some_and(|heard| heard.wakes) {
+                    self.write_batch().and_then(|()| self.write(port, stamp(time, sequence), cdr))
+                } else {
+                    self.batch.keep(port, time, sequence, cdr);
+                    Ok(())
+                }
             }
-            Event::Wakeup => self.look(at),
-            Event::Shutdown => return self.finish(sink, true),
+            Event::Wakeup => self.write_batch().and_then(|()| self.look(at)),
+            Event::Shutdown => {
+                let done = self.write_batch();
+                if done.is_ok() {
+                    return self.finish(sink, true);
+                }
+                done
+            }
             _ => Ok(()),
         };
         if let Err(error) = done {
@@ -166,7 +203,7 @@ impl NodeCore for Recorder {
         let (type_info, note) = discovery::type_info(&found);
         self.notes.push((Level::Debug, format!("{} of type {} is recorded too", found.topic, found.type_name)));
         self.notes.extend(note.map(|note| (Level::Warn, note)));
-        let subscribe = Subscribe::of_type(found.topic, type_info, discovery::qos(&found));
+        let subscribe = without_waking(Subscribe::of_type(found.topic, type_info, discovery::qos(&found)));
         self.interface.subscriptions.push(subscribe.clone());
         self.ids.push(None);
         Some(subscribe)
@@ -177,7 +214,28 @@ impl NodeCore for Recorder {
     }
 }
 
+/// Recorded at `time`, which is as near as it is known to when it was published.
+fn stamp(time: u64, sequence: u32) -> Stamp {
+    Stamp { log_time: time, publish_time: time, sequence }
+}
+
 impl Recorder {
+    /// ROS time when a message arrived, ns.
+    fn log_time(&self, at: Times, arrived: Option<Steady>) -> u64 {
+        let arrived = arrived.filter(|_| !self.simulated).unwrap_or(at.steady);
+        let age = at.steady.0.saturating_sub(arrived.0);
+        // Time before the epoch is none: a clock that has not started yet.
+        u64::try_from(at.ros.0).unwrap_or(0).saturating_sub(age)
+    }
+
+    fn write_batch(&mut self) -> Result<(), BagError> {
+        let mut batch = std::mem::take(&mut self.batch);
+        let done = batch.write(|heard, cdr| self.write(heard.port, stamp(heard.time, heard.sequence), cdr));
+        // Its memory is used again.
+        self.batch = batch;
+        done
+    }
+
     fn write(&mut self, port: usize, stamp: Stamp, cdr: &[u8]) -> Result<(), BagError> {
         let (Some(writer), Some(heard), Some(id)) =
             (&mut self.writer, self.interface.subscriptions.get(port), self.ids.get_mut(port))
@@ -192,7 +250,7 @@ impl Recorder {
     }
 
     fn look(&mut self, at: Times) -> Result<(), BagError> {
-        self.next_look = at.steady.plus_seconds(LOOK);
+        self.next_look = at.steady.plus_seconds(BATCH);
         self.writer.as_mut().map_or(Ok(()), BagWriter::flush_if_due)
     }
 

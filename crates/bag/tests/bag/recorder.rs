@@ -42,8 +42,8 @@ fn what_is_heard_is_in_the_bag() {
     let state = RunState { reason: "test".to_owned(), ..RunState::default() }.to_cdr();
     let stop = std_msgs::Bool { data: true }.to_cdr();
     let source = |sequence| Source { gid: [1; 16], sequence };
-    core.handle(at(5), Event::Message { port: 0, source: source(1), cdr: &state }, &mut sink);
-    core.handle(at(10), Event::Message { port: 1, source: source(41), cdr: &stop }, &mut sink);
+    core.handle(at(5), Event::Message { port: 0, source: source(1), cdr: &state, arrived: None }, &mut sink);
+    core.handle(at(10), Event::Message { port: 1, source: source(41), cdr: &stop, arrived: None }, &mut sink);
     // The open chunk is closed by time alone.
     std::thread::sleep(std::time::Duration::from_millis(600));
     core.handle(at(700), Event::Wakeup, &mut sink);

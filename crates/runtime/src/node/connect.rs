@@ -55,11 +55,13 @@ impl Connections<'_> {
         let shared_name = self.host.topic(&topic, subscribe.type_info.name);
         let name = TopicName::new(topic, subscribe.type_info);
         let mut network = self.network.reader(node, &name, subscribe.qos)?;
-        let wake = Wake::Topic(self.topics.next());
+        let index = self.topics.next();
         let mut local_token = None;
         if subscribe.wakes {
-            self.register(wake, network.as_mut())?;
-            local_token = Some(self.token(wake));
+            self.register(Wake::Network(index), network.as_mut())?;
+            local_token = Some(self.token(Wake::Topic(index)));
+        } else {
+            self.topics.look_after(index, network.as_mut())?;
         }
         Ok(Subscription::new(Reading { name, shared_name, qos: subscribe.qos }, network, local_token))
     }

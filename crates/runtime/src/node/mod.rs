@@ -42,8 +42,10 @@ pub(crate) struct Node {
 /// What woke the loop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wake {
-    /// A topic that nodes of the process read.
+    /// Shared memory of a topic that nodes of the process read.
     Topic(usize),
+    /// Its network.
+    Network(usize),
     /// Something that is one node's alone.
     Node(usize, NodeWake),
 }

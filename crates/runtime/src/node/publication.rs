@@ -119,7 +119,7 @@ impl Publication {
         let mut copy = None;
         let keep = |message: &[u8]| copy = wants_copy.then(|| Bytes::copy_from_slice(message));
         let written = local.writer.publish_with(source, max_len, fill, keep);
-        let all_woken = written.as_ref().is_ok_and(|woken| *woken >= local.readers);
+        let all_woken = written.as_ref().is_ok_and(|all| *all);
         let problem = written.err();
         if problem.is_some() && self.to_network && copy.is_none() {
             copy = Some(encode(max_len, fill));
@@ -136,9 +136,10 @@ impl Publication {
     }
 
     /// Whether nobody would ever hear a message: readers that come later do not ask for the past. Writing it all the
-    /// same would wake RustDDS's thread, beside the control loop.
+    /// same would cost time, and where it goes over the network wake RustDDS's thread, beside the control loop.
     fn is_unheard(&self) -> bool {
-        self.local.is_none() && !self.is_read && self.qos.durability == Durability::Volatile
+        let nobody_shares = self.local.as_ref().is_none_or(|local| local.writer.readers() == 0);
+        nobody_shares && !self.is_read && self.qos.durability == Durability::Volatile
     }
 
     /// Whether shared memory reaches all readers, so that the network may rest.

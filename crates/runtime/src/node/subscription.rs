@@ -21,6 +21,8 @@ pub(crate) struct Subscription {
     shared_name: SharedTopic,
     qos: Qos,
     pub(crate) network: Box<dyn NetworkReader>,
+    /// Whether the network may have brought something: asking it in vain costs system calls.
+    network_woke: bool,
     local: Option<SharedReader>,
     /// What shared memory wakes the loop by; none where messages wait for the next event.
     local_token: Option<Token>,
@@ -30,6 +32,9 @@ pub(crate) struct Subscription {
     pending: Option<(SharedSample, Steady)>,
     early: Early,
 }
+
+/// Whose message it is, and when it was written on this host or the network brought it.
+type Arrival = (Source, Steady);
 
 /// What a subscription reads.
 pub(crate) struct Reading {
@@ -51,6 +56,7 @@ impl Subscription {
             shared_name,
             qos,
             network,
+            network_woke: true,
             local: None,
             local_token,
             retry,
@@ -58,6 +64,11 @@ impl Subscription {
             pending: None,
             early: Early::default(),
         }
+    }
+
+    /// The network has brought something.
+    pub(crate) fn network_wakes(&mut self) {
+        self.network_woke = true;
     }
 
     /// Whether a message wakes the loop.
@@ -132,18 +143,18 @@ impl Subscription {
     pub(crate) fn drain(
         &mut self,
         now: Steady,
-        mut deliver: impl FnMut(Source, &[u8]),
+        mut deliver: impl FnMut(Arrival, &[u8]),
         mut report: impl FnMut(String),
     ) {
-        self.network.clear_wakeup();
-        let mut waiting = VecDeque::new();
-        while let Some(taken) = self.network.take() {
-            match taken {
-                Ok(sample) => keep(&mut waiting, sample, self.qos),
-                Err(problem) => report(problem),
-            }
+        let is_due = self.is_due(now);
+        let waiting = if self.network_woke || is_due { self.drain_network(&mut report) } else { VecDeque::new() };
+        if let Some(local) = &self.local {
+            local.clear_wakeup();
         }
         self.drain_local(now, &mut deliver, &mut report);
+        if waiting.is_empty() && !is_due {
+            return;
+        }
         for sample in waiting {
             if self.qos.durability == Durability::TransientLocal && !self.delivered.knows(&sample.source.gid) {
                 self.early.keep(sample, self.qos.depth, now);
@@ -158,23 +169,34 @@ impl Subscription {
         self.drain_local(now, &mut deliver, &mut report);
     }
 
-    fn take_network(&mut self, sample: &NetworkSample, deliver: &mut impl FnMut(Source, &[u8])) {
+    /// What the network has brought.
+    fn drain_network(&mut self, report: &mut impl FnMut(String)) -> VecDeque<NetworkSample> {
+        self.network_woke = false;
+        self.network.clear_wakeup();
+        let mut waiting = VecDeque::new();
+        while let Some(taken) = self.network.take() {
+            match taken {
+                Ok(sample) => keep(&mut waiting, sample, self.qos),
+                Err(problem) => report(problem),
+            }
+        }
+        waiting
+    }
+
+    fn take_network(&mut self, sample: &NetworkSample, deliver: &mut impl FnMut(Arrival, &[u8])) {
         self.delivered.heard_over_network(sample.source);
         if self.delivered.accept(sample.source) {
-            deliver(sample.source, &sample.cdr);
+            deliver((sample.source, sample.arrived), &sample.cdr);
         }
     }
 
-    fn release_early(&mut self, deliver: &mut impl FnMut(Source, &[u8])) {
+    fn release_early(&mut self, deliver: &mut impl FnMut(Arrival, &[u8])) {
         for sample in self.early.release() {
             self.take_network(&sample, deliver);
         }
     }
 
-    fn drain_local(&mut self, now: Steady, deliver: &mut impl FnMut(Source, &[u8]), report: &mut impl FnMut(String)) {
-        if let Some(local) = &self.local {
-            local.clear_wakeup();
-        }
+    fn drain_local(&mut self, now: Steady, deliver: &mut impl FnMut(Arrival, &[u8]), report: &mut impl FnMut(String)) {
         while let Some((taken, until)) = self.next_local(now) {
             let sample = match taken {
                 Ok(sample) => sample,
@@ -201,7 +223,7 @@ impl Subscription {
                 self.release_early(deliver);
             }
             if self.delivered.accept(sample.source()) {
-                deliver(sample.source(), sample.cdr());
+                deliver((sample.source(), sample.written()), sample.cdr());
             }
         }
     }

@@ -39,12 +39,14 @@ impl Inputs {
         let before = self.others.said.get(name).map(|before| RosTime::from(&before.message.header.stamp));
         timely(at, RosTime::from(&message.header.stamp), before)?;
         let judged = self.assignment.as_ref().map_or(Ok(()), |ours| same(ours, &message));
+        // A robot that has not heard of any assignment yet is no teammate, and nothing is wrong with what it says.
+        let unassigned = message.epoch == 0;
         let heard = Heard { at: at.steady, message };
         if judged.is_ok() {
             self.others.teammates.insert(name.to_owned(), heard.clone());
         }
         self.others.said.insert(name.to_owned(), heard);
-        judged
+        if unassigned { Ok(()) } else { judged }
     }
 
     /// Whether one of the other robots of the queue of `member` is heard; a robot that has none is not missing any.
@@ -151,6 +153,15 @@ mod tests {
         // Who still follows the old one no longer counts.
         assert!(inputs.take_other(at(1.1), "r", state(1.1, 4)).is_err());
         assert!(ahead(&inputs, 1.45).is_none());
+    }
+
+    /// At the start some hear of the assignment later than others.
+    #[test]
+    fn who_has_no_assignment_yet_is_heard_and_is_no_teammate() {
+        let mut inputs = inputs(4);
+        inputs.take_other(at(1.0), "r", state(1.0, 0)).unwrap();
+        assert!(ahead(&inputs, 1.0).is_none());
+        assert_eq!(inputs.others.heard(at(1.0).steady, 0.4).collect::<Vec<_>>(), ["r"]);
     }
 
     /// The leader heard of the new assignment before we did.

@@ -101,7 +101,7 @@ impl Bench {
     /// A message of the writer `gid`.
     pub(crate) fn send_from(&mut self, gid: [u8; 16], topic: &str, cdr: &[u8]) {
         let port = self.core.interface().subscriptions.iter().position(|subscribe| subscribe.topic == topic).unwrap();
-        let event = Event::Message { port, source: From { gid, sequence: 0 }, cdr };
+        let event = Event::Message { port, source: From { gid, sequence: 0 }, cdr, arrived: None };
         self.core.handle(self.times(), event, &mut self.out);
     }
 

@@ -42,7 +42,8 @@ fn robots_in_an_image_folder_are_found() {
     let mut localizer = (description.build)(&NodeContext::default(), &parameters, &Shipped).unwrap();
     for (sequence, (_, image)) in (1..).zip(&frames.images) {
         let mut outbox = Outbox::default();
-        let event = Event::Message { port: 0, source: Source { gid: [1; 16], sequence }, cdr: &image.to_cdr() };
+        let event =
+            Event::Message { port: 0, source: Source { gid: [1; 16], sequence }, cdr: &image.to_cdr(), arrived: None };
         localizer.handle(Times::default(), event, &mut outbox);
         let state: TeamState = outbox.last(0).unwrap();
         for (robot, pose) in state.robots.iter().zip(ROBOTS) {

@@ -112,7 +112,7 @@ fn timing(sequence: u64) -> (RosTime, Times, Source) {
 fn send(core: &mut dyn NodeCore, sequence: u64, cdr: &[u8]) -> Outbox {
     let mut outbox = Outbox::default();
     let (_, at, source) = timing(sequence);
-    core.handle(at, Event::Message { port: 0, source, cdr }, &mut outbox);
+    core.handle(at, Event::Message { port: 0, source, cdr, arrived: None }, &mut outbox);
     outbox
 }
 

@@ -173,7 +173,7 @@ impl Loop {
         let port = subscriptions.iter().position(|s| s.topic == topic).unwrap_or_else(|| panic!("{topic}"));
         self.sequence += 1;
         let source = Source { gid: [publisher; 16], sequence: self.sequence };
-        self.tell_bridge(Event::Message { port, source, cdr: &message.to_cdr() });
+        self.tell_bridge(Event::Message { port, source, cdr: &message.to_cdr(), arrived: None });
     }
 
     pub(crate) fn run_state(&mut self, state: u8) {

@@ -2,13 +2,14 @@
 
 use super::raw::{RawAdapter, RawMessage};
 use super::writer::gid;
+use crate::clock::steady_now;
 use crate::transport::network::{Gid, NetworkReader, NetworkSample};
 use rustdds::bytes::Bytes;
 use rustdds::mio1::{Interest, Registry, Token, event};
 use rustdds::no_key::{DeserializedCacheChange, SimpleDataReader};
-use rustdds::{GUID, SampleIdentity};
+use rustdds::{GUID, SampleIdentity, Timestamp};
 use std::io;
-use trench_core::Source;
+use trench_core::{Source, Steady};
 
 /// A message with what services need to know of it.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub(super) struct DdsSample {
     pub(super) cdr: Bytes,
     pub(super) identity: SampleIdentity,
     pub(super) related: Option<SampleIdentity>,
+    /// When it came, by the wall clock.
+    received: Timestamp,
 }
 
 /// Takes messages in the order of each writer.
@@ -56,8 +59,20 @@ impl NetworkReader for DdsReader {
 
     fn take(&self) -> Option<Result<NetworkSample, String>> {
         let taken = self.take_identified()?;
-        Some(taken.map(|sample| NetworkSample { source: sample.source, cdr: sample.cdr }))
+        Some(taken.map(|sample| NetworkSample {
+            source: sample.source,
+            cdr: sample.cdr,
+            arrived: steady(sample.received),
+        }))
     }
+}
+
+/// The monotonic time of a moment of the wall clock that has just been.
+fn steady(wall: Timestamp) -> Steady {
+    // Ticks are 2^-32 s. A clock that was set back meanwhile makes it now.
+    let ticks = Timestamp::now().to_ticks().saturating_sub(wall.to_ticks());
+    let age = (u128::from(ticks) * 1_000_000_000) >> 32;
+    Steady(steady_now().0.saturating_sub(u64::try_from(age).unwrap_or(0)))
 }
 
 fn sample(change: DeserializedCacheChange<RawMessage>) -> DdsSample {
@@ -68,7 +83,8 @@ fn sample(change: DeserializedCacheChange<RawMessage>) -> DdsSample {
     // RTPS counts from 1 and never below.
     let sequence = i64::from(own.map_or(change.sequence_number, |own| own.sequence_number));
     let source = Source { gid: gid(change.writer_guid), sequence: u64::try_from(sequence).unwrap_or(0) };
-    DdsSample { source, identity, related, cdr: change.into_value().0 }
+    let received = change.receive_instant;
+    DdsSample { source, identity, related, received, cdr: change.into_value().0 }
 }
 
 impl event::Source for DdsReader {

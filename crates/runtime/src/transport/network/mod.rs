@@ -13,7 +13,7 @@ use rustdds::bytes::Bytes;
 use rustdds::mio1::event;
 use std::collections::BTreeSet;
 use std::time::Duration;
-use trench_core::{Qos, Source};
+use trench_core::{Qos, Source, Steady};
 use trench_msgs::ServiceInfo;
 
 /// An end of a topic or service on the network.
@@ -26,6 +26,8 @@ pub(crate) struct NetworkSample {
     pub(crate) source: Source,
     /// CDR with its header.
     pub(crate) cdr: Bytes,
+    /// When it came.
+    pub(crate) arrived: Steady,
 }
 
 /// The network can take no more: the readers are thousands of messages behind.

@@ -12,4 +12,6 @@ pub(super) struct Header {
     pub(super) sequence: u64,
     /// The bytes in use: a loan can be longer than its message.
     pub(super) length: u64,
+    /// When it was written, by the clock that all processes of a host share, ns.
+    pub(super) written: u64,
 }

@@ -10,12 +10,13 @@ use iceoryx2::service::builder::event::EventOpenError;
 use iceoryx2::service::builder::publish_subscribe::PublishSubscribeOpenError;
 use rustdds::mio1::unix::SourceFd;
 use rustdds::mio1::{Interest, Registry, Token};
-use trench_core::{Durability, Qos, Reliability, Source};
+use trench_core::{Durability, Qos, Reliability, Source, Steady};
 
 /// Reads messages where their writer wrote them.
 pub(crate) struct SharedReader {
     subscriber: Subscriber<ipc::Service, [u8], Header>,
-    listener: Listener<ipc::Service>,
+    /// What its writers wake it by; none where nobody waits for its messages, so that they cost no system call.
+    listener: Option<Listener<ipc::Service>>,
 }
 
 /// A message in shared memory, which stays there as long as this lives.
@@ -35,10 +36,11 @@ impl SharedReader {
             Err(PublishSubscribeOpenError::DoesNotExist) => return Ok(None),
             Err(error) => return Err(format!("{error:?}")),
         };
-        let wakeups = match node.service_builder(name).event().open() {
-            Ok(wakeups) => wakeups,
-            Err(EventOpenError::DoesNotExist) => return Ok(None),
-            Err(error) => return Err(format!("{error:?}")),
+        let wakeups = match token.map(|token| (token, node.service_builder(name).event().open())) {
+            Some((token, Ok(wakeups))) => Some((token, wakeups)),
+            Some((_, Err(EventOpenError::DoesNotExist))) => return Ok(None),
+            Some((_, Err(error))) => return Err(format!("{error:?}")),
+            None => None,
         };
         let history = if qos.durability == Durability::TransientLocal { qos.depth } else { 0 };
         let limits = topic.static_config();
@@ -53,18 +55,20 @@ impl SharedReader {
             .set_degradation_handler(|_cause, _where| DegradationAction::DegradeAndFail)
             .create()
             .map_err(|error| format!("{error:?}"))?;
-        let listener = wakeups.listener_builder().create().map_err(|error| format!("{error:?}"))?;
-        if let Some(token) = token {
+        let mut listener = None;
+        if let Some((token, wakeups)) = wakeups {
+            let made = wakeups.listener_builder().create().map_err(|error| format!("{error:?}"))?;
             registry
-                .register(&mut SourceFd(&descriptor(&listener)), token, Interest::READABLE)
+                .register(&mut SourceFd(&descriptor(&made)), token, Interest::READABLE)
                 .map_err(|error| format!("cannot wait for it: {error}"))?;
+            listener = Some(made);
         }
         Ok(Some(Self { subscriber, listener }))
     }
 
     /// Acknowledges the wake-up; to be called before taking, or a later arrival may go unnoticed.
     pub(crate) fn clear_wakeup(&self) {
-        let _spurious = self.listener.try_wait(|_| {});
+        let _spurious = self.listener.as_ref().map(|listener| listener.try_wait(|_| {}));
     }
 
     /// The next message; `None` when all are taken.
@@ -80,6 +84,11 @@ impl SharedSample {
     /// Writer and count.
     pub(crate) fn source(&self) -> Source {
         Source { gid: self.0.user_header().gid, sequence: self.0.user_header().sequence }
+    }
+
+    /// When it was written.
+    pub(crate) fn written(&self) -> Steady {
+        Steady(self.0.user_header().written)
     }
 
     /// The message, read in place.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::clock::steady_now;
 use rustdds::mio1::{Events, Poll, Token};
 use std::ops::Range;
 use std::time::Duration;
@@ -44,7 +45,8 @@ fn send(writer: &SharedWriter, sequence: u64, message: &[u8]) {
         message.len()
     };
     let mut copied = Vec::new();
-    writer.publish_with(source, message.len() + 5, &mut fill, |copy| copied = copy.to_vec()).unwrap();
+    let all_woken = writer.publish_with(source, message.len() + 5, &mut fill, |copy| copied = copy.to_vec()).unwrap();
+    assert!(all_woken);
     assert_eq!(copied, message);
 }
 
@@ -68,6 +70,22 @@ fn messages_arrive_in_order_with_their_source_and_wake_the_loop() {
     reader.clear_wakeup();
     let expected: Vec<_> = (1..=40).map(|sequence| (sequence, vec![sequence as u8; 3])).collect();
     assert_eq!(take_all(&reader), expected);
+}
+
+#[test]
+fn a_reader_that_does_not_wait_gets_messages_with_their_times_and_nobody_is_woken_in_vain() {
+    let mut pair = Pair::new("quiet");
+    let writer = pair.writer(64, Qos::RELIABLE);
+    let quiet = pair.host.reader(&pair.topic, Qos::RELIABLE, [5; 16], pair.poll.registry(), None).unwrap().unwrap();
+    let before = steady_now();
+    send(&writer, 1, b"quiet");
+    let mut events = Events::with_capacity(4);
+    pair.poll.poll(&mut events, Some(Duration::ZERO)).unwrap();
+    assert!(events.is_empty());
+    let sample = quiet.take().unwrap().unwrap();
+    assert_eq!(sample.cdr(), b"quiet");
+    assert!((before..=steady_now()).contains(&sample.written()));
+    assert_eq!(writer.gids(), [[5; 16]].into());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::host::Topic;
 use super::limits::{Limits, NODES};
 use super::{Header, identity};
+use crate::clock::steady_now;
 use iceoryx2::port::notifier::Notifier;
 use iceoryx2::port::publisher::Publisher;
 use iceoryx2::prelude::{AllocationStrategy, CallbackProgression, Node, PortFactory, ServiceName, ipc};
@@ -14,6 +15,7 @@ use trench_core::{Durability, Qos, Source};
 pub(crate) struct SharedWriter {
     topic: Topic,
     publisher: Publisher<ipc::Service, [u8], Header>,
+    wakeups: event::PortFactory<ipc::Service>,
     notifier: Notifier<ipc::Service>,
 }
 
@@ -26,8 +28,9 @@ impl SharedWriter {
             .allocation_strategy(AllocationStrategy::PowerOfTwo)
             .create()
             .map_err(|error| format!("{error:?}"))?;
-        let notifier = wakeups(node, name)?.notifier_builder().create().map_err(|error| format!("{error:?}"))?;
-        Ok(Self { topic, publisher, notifier })
+        let wakeups = wakeups(node, name)?;
+        let notifier = wakeups.notifier_builder().create().map_err(|error| format!("{error:?}"))?;
+        Ok(Self { topic, publisher, wakeups, notifier })
     }
 
     /// How many messages wait for a busy reader before the oldest is overwritten.
@@ -51,15 +54,15 @@ impl SharedWriter {
     }
 
     /// Publishes what `fill` writes into at most `max_len` loaned bytes, giving its length; `copy` sees the message
-    /// once more before the readers do. Gives how many readers were woken: one that died without a word cannot be, nor
-    /// one whose files were taken away.
+    /// once more before the readers do. Gives whether all readers that wait for messages were woken: one that died without
+    /// a word cannot be, nor one whose files were taken away.
     pub(crate) fn publish_with(
         &self,
         source: Source,
         max_len: usize,
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
         copy: impl FnOnce(&[u8]),
-    ) -> Result<usize, String> {
+    ) -> Result<bool, String> {
         let loan = self.publisher.loan_slice_uninit(max_len.max(1)).map_err(|error| format!("{error:?}"))?;
         #[expect(
             unsafe_code,
@@ -67,10 +70,17 @@ impl SharedWriter {
         )]
         let mut sample = unsafe { loan.assume_init() };
         let length = fill(&mut sample.payload_mut()[..max_len]).min(max_len);
-        *sample.user_header_mut() = Header { gid: source.gid, sequence: source.sequence, length: length as u64 };
+        let written = steady_now().0;
+        *sample.user_header_mut() =
+            Header { gid: source.gid, sequence: source.sequence, length: length as u64, written };
         copy(&sample.payload()[..length]);
         sample.send().map_err(|error| format!("{error:?}"))?;
-        self.notifier.notify().map_err(|error| format!("cannot wake the readers: {error:?}"))
+        let waiting = self.wakeups.dynamic_config().number_of_listeners();
+        if waiting == 0 {
+            return Ok(true);
+        }
+        let woken = self.notifier.notify().map_err(|error| format!("cannot wake the readers: {error:?}"))?;
+        Ok(woken >= waiting)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::attachment::Attachment;
 use super::inbox::{Inbox, Outlet, wakes_by};
+use crate::clock::steady_now;
 use crate::transport::network::{Gid, NetworkReader, NetworkSample};
 use rustdds::bytes::Bytes;
 use std::borrow::Cow;
-use trench_core::{Durability, Qos, Reliability, Source};
+use trench_core::{Durability, Qos, Reliability, Source, Steady};
 use zenoh::Wait;
 use zenoh::bytes::ZBytes;
 use zenoh::liveliness::LivelinessToken;
@@ -19,7 +20,8 @@ const UNREAD: usize = 4096;
 
 /// Takes messages in the order of each writer.
 pub(super) struct ZenohReader {
-    inbox: Inbox<Sample>,
+    /// Messages, and when they came.
+    inbox: Inbox<(Steady, Sample)>,
     gid: Gid,
     _subscriber: AnySubscriber,
     _token: LivelinessToken,
@@ -44,9 +46,9 @@ impl ZenohReader {
         declare_token: impl FnOnce() -> zenoh::Result<LivelinessToken>,
     ) -> zenoh::Result<Self> {
         let (inbox, outlet) = Inbox::new(UNREAD)?;
-        let put = move |outlet: &Outlet<Sample>, sample: Sample| {
+        let put = move |outlet: &Outlet<(Steady, Sample)>, sample: Sample| {
             if sample.kind() == SampleKind::Put {
-                outlet.put(sample);
+                outlet.put((steady_now(), sample));
             }
         };
         let builder = session.declare_subscriber(key).callback(move |sample| put(&outlet, sample));
@@ -75,12 +77,12 @@ impl NetworkReader for ZenohReader {
     }
 
     fn take(&self) -> Option<Result<NetworkSample, String>> {
-        let sample = self.inbox.take()?;
+        let (arrived, sample) = self.inbox.take()?;
         let Some(Attachment { count, gid }) = Attachment::of(sample.attachment()) else {
             return Some(Err("it does not say whose it is and which (an attachment of 33 bytes)".to_owned()));
         };
         let source = Source { gid, sequence: u64::try_from(count).unwrap_or(0) };
-        Some(Ok(NetworkSample { source, cdr: bytes(sample.payload()) }))
+        Some(Ok(NetworkSample { source, cdr: bytes(sample.payload()), arrived }))
     }
 }
 
