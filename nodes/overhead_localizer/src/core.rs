@@ -8,7 +8,7 @@ use crate::report::{PERIOD, Report};
 use crate::settings::{Input, Settings, descriptors};
 use crate::stream::Stream;
 use crate::track::{MapDisc, Tracker};
-use crate::{markers, messages, naming, pads};
+use crate::{markers, messages, naming, pads, recalibrate};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Durability, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos,
@@ -16,7 +16,9 @@ use trench_core::{
 };
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::{Identify, NameRobots, TeamState};
+use trench_msgs::msg::{
+    Identify, NameRobots, SetCalibration, SetCalibrationRequest, SetCalibrationResponse, TeamState,
+};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Float64;
 use trench_msgs::std_srvs::Trigger;
@@ -30,6 +32,9 @@ const TF: usize = 1;
 const DIAGNOSTICS: usize = 2;
 const MARKERS: usize = 3;
 const ODOMETRY: usize = 4;
+
+/// Port of the service ~/set_calibration; those before it are [`naming`]'s.
+const SET_CALIBRATION: usize = 3;
 
 /// The shortest time between two pictures for viewers, s; a frame that comes a little early counts as due.
 const PICTURES: f64 = 0.095;
@@ -73,7 +78,7 @@ impl OverheadLocalizer {
     /// When parameters or the files they name are wrong.
     pub fn new(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Self, StartError> {
         let settings = Settings::load(parameters, files)?;
-        let intakes = intakes(&settings, parameters)?;
+        let intakes = intakes(&settings).ok_or_else(|| blind(parameters))?;
         let several = (settings.cameras.len() > 1).then_some(settings.cameras.len());
         let tracker = Tracker::new(settings.team.clone(), settings.noise_seed);
         let name = resolve_name(&context.name, &context.namespace, &context.name);
@@ -157,6 +162,19 @@ impl OverheadLocalizer {
         self.told(at, stamp, number, pads, sink);
     }
 
+    /// Sees through other lenses, or from other places, from the next frame on; every robot keeps its name.
+    fn calibrate(&mut self, cdr: &[u8]) -> Result<String, String> {
+        let request = SetCalibrationRequest::decode(cdr).map_err(|error| error.to_string())?;
+        let pad = self.settings.team.pad;
+        let mut settings = self.settings.clone();
+        settings.cameras = recalibrate::cameras(&self.settings.cameras, &request, pad.height)?;
+        self.intakes = intakes(&settings).ok_or("a camera would not see a pad below it")?;
+        let before = &self.settings.cameras;
+        self.tracker.remap(|pose| recalibrate::moved(before, &settings.cameras, &pad, pose));
+        self.settings = settings;
+        Ok("in force from the next frame on; the files are read again at the next start".to_owned())
+    }
+
     /// Publishes what a frame has brought.
     fn told(&mut self, at: Times, stamp: Time, number: u64, pads: usize, sink: &mut dyn Sink) {
         self.publish(stamp, number, sink);
@@ -210,6 +228,11 @@ impl NodeCore for OverheadLocalizer {
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
             Event::Message { port, source, cdr, .. } => self.message(at, port, source, cdr, sink),
+            Event::Request { service: SET_CALIBRATION, id, cdr } => {
+                let outcome = self.calibrate(cdr);
+                let (success, message) = (outcome.is_ok(), outcome.unwrap_or_else(|reason| reason));
+                sink.respond(SET_CALIBRATION, id, &SetCalibrationResponse { success, message });
+            }
             Event::Request { service, id, cdr } => naming::answer(&mut self.tracker, service, id, cdr, sink),
             Event::Started | Event::Wakeup => {
                 if let Some(look) = self.gather.as_mut().and_then(|gather| gather.overdue(at.steady)) {
@@ -232,15 +255,20 @@ impl NodeCore for OverheadLocalizer {
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
         let mut settings = self.settings.clone();
         settings.tune(parameters)?;
-        self.intakes = intakes(&settings, parameters)?;
+        self.intakes = intakes(&settings).ok_or_else(|| blind(parameters))?;
         self.tracker.tune(settings.team.clone());
         self.settings = settings;
         Ok(())
     }
 }
 
-fn intakes(settings: &Settings, parameters: &Parameters) -> Result<Vec<Intake>, ConfigError> {
-    settings.cameras.iter().map(|view| Intake::new(settings, view, parameters)).collect()
+/// None if a camera could not see any pad.
+fn intakes(settings: &Settings) -> Option<Vec<Intake>> {
+    settings.cameras.iter().map(|view| Intake::new(settings, view)).collect()
+}
+
+fn blind(parameters: &Parameters) -> ConfigError {
+    parameters.error("mount_file", "a camera does not see a pad below it", "measure it again")
 }
 
 /// Names of usual length leave a fifth of it free.
@@ -268,6 +296,7 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     let subscriptions = settings.cameras.iter().map(|view| Intake::subscription(settings.input, view)).collect();
     let trigger = |name: &str| Serve { name: name.to_owned(), service: service_info::<Trigger>() };
     let name_robots = Serve { name: "~/name_robots".to_owned(), service: service_info::<NameRobots>() };
-    let services = vec![trigger("~/reset"), trigger("~/identify"), name_robots];
+    let set_calibration = Serve { name: "~/set_calibration".to_owned(), service: service_info::<SetCalibration>() };
+    let services = vec![trigger("~/reset"), trigger("~/identify"), name_robots, set_calibration];
     Interface { subscriptions, publications, services, ..Interface::default() }
 }

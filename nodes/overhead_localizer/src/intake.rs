@@ -3,7 +3,6 @@
 use crate::settings::{Input, Settings};
 use crate::track::MapDisc;
 use crate::vision::{Colour, Detector, Disc, Expectation, Frame, decode};
-use trench_config::{ConfigError, Parameters};
 use trench_core::{Qos, RosTime, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::builtin_interfaces::Time;
@@ -37,16 +36,13 @@ pub(crate) struct Intake {
 }
 
 impl Intake {
-    /// # Errors
-    /// When the camera could not see any pad.
-    pub(crate) fn new(settings: &Settings, view: &Overhead, parameters: &Parameters) -> Result<Self, ConfigError> {
+    /// None if the camera could not see any pad.
+    pub(crate) fn new(settings: &Settings, view: &Overhead) -> Option<Self> {
         let (camera, pad) = (view.camera.clone(), &settings.team.pad);
-        let expectation = Expectation::new(&camera, pad).ok_or_else(|| {
-            parameters.error("mount_file", "the camera does not see a pad below it", "measure it again")
-        })?;
+        let expectation = Expectation::new(&camera, pad)?;
         let detector = Detector::new(&settings.colours, expectation);
         let (pad_height, input, radius) = (pad.height, settings.input, 0.5 * expectation.width);
-        Ok(Self { camera, pad_height, radius, input, detector, room: Vec::new(), found: Vec::new() })
+        Some(Self { camera, pad_height, radius, input, detector, room: Vec::new(), found: Vec::new() })
     }
 
     /// What it reads.

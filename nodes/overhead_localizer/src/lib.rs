@@ -19,6 +19,7 @@ mod missing;
 mod naming;
 mod noise;
 mod pads;
+mod recalibrate;
 mod report;
 mod settings;
 mod stream;

@@ -74,6 +74,11 @@ impl Filter {
         &self.state
     }
 
+    /// Puts the estimate elsewhere; what is known of its speeds, and how well, stays.
+    pub fn place(&mut self, pose: Pose2) {
+        self.state.pose = pose;
+    }
+
     /// Moves the estimate `dt` (s) forward.
     pub fn predict(&mut self, dt: f64, motion: &Motion) {
         let State { pose, v, omega, covariance } = self.state;

@@ -132,6 +132,16 @@ impl Tracker {
         self.turns.delay()
     }
 
+    /// The map has changed below the robots, as `moved` says: they are where they were seen, and keep their names. Where it
+    /// says nothing the robot is looked for in the old place.
+    pub fn remap(&mut self, moved: impl Fn(Pose2) -> Option<Pose2>) {
+        for filter in self.tracks.iter_mut().filter_map(|track| track.filter.as_mut()) {
+            if let Some(pose) = moved(filter.state().pose) {
+                filter.place(pose);
+            }
+        }
+    }
+
     /// Puts all names in doubt.
     pub fn doubt(&mut self) {
         self.tracks.iter_mut().for_each(|track| track.in_doubt = track.filter.is_some());
