@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use trench_bag::{BagReader, recorder};
 use trench_config::{ConfigError, Origin, ParameterValue, Parameters};
+use trench_core::arguments::process_parameters;
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source, StartError, Steady, Times};
 use trench_msgs::msg::RunState;
 use trench_msgs::{Encode, std_msgs};
@@ -18,7 +19,7 @@ impl Files for NoFiles {
 fn build(output: &str, topics: &[&str]) -> Result<Box<dyn NodeCore>, StartError> {
     let description = recorder::description();
     let mut parameters = Parameters::default();
-    for descriptor in (description.parameters)() {
+    for descriptor in (description.parameters)().into_iter().chain(process_parameters()) {
         parameters.insert(descriptor.name, descriptor.default, Origin::default());
     }
     parameters.insert("output", ParameterValue::String(output.to_owned()), Origin::default());
@@ -43,7 +44,10 @@ fn what_is_heard_is_in_the_bag() {
     let stop = std_msgs::Bool { data: true }.to_cdr();
     let source = |sequence| Source { gid: [1; 16], sequence };
     core.handle(at(5), Event::Message { port: 0, source: source(1), cdr: &state, arrived: None }, &mut sink);
-    core.handle(at(10), Event::Message { port: 1, source: source(41), cdr: &stop, arrived: None }, &mut sink);
+    // Handed over late, by a recorder that need not wake for it.
+    let arrived = Some(at(3).steady);
+    core.handle(at(10), Event::Message { port: 1, source: source(41), cdr: &stop, arrived }, &mut sink);
+    core.handle(at(50), Event::Wakeup, &mut sink);
     // The open chunk is closed by time alone.
     std::thread::sleep(std::time::Duration::from_millis(600));
     core.handle(at(700), Event::Wakeup, &mut sink);
@@ -56,7 +60,9 @@ fn what_is_heard_is_in_the_bag() {
     let found: BTreeMap<_, _> = read.iter().map(|m| (bag.topics()[m.topic].name.as_str(), m)).collect();
     assert_eq!(found.len(), 2, "a topic that was never heard is not in the bag");
     assert_eq!(&found["/run_state"][..], state);
-    assert_eq!((found["/stop"].log_time, found["/stop"].sequence), (1_010_000_000, 41));
+    assert_eq!((found["/stop"].log_time, found["/stop"].sequence), (1_003_000_000, 41));
+    assert_eq!(found["/run_state"].log_time, 1_005_000_000);
+    assert!(read.is_sorted_by_key(|message| message.log_time));
 }
 
 #[test]

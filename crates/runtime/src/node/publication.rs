@@ -100,6 +100,8 @@ impl Publication {
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
     ) -> Result<(), PublishProblem> {
         if self.is_unheard() {
+            // Counted where the network need not agree, or can be told.
+            self.sent += u64::from(self.local.is_some());
             return Ok(());
         }
         if self.to_network && !self.network.has_room() {
@@ -138,7 +140,10 @@ impl Publication {
     /// Whether nobody would ever hear a message: readers that come later do not ask for the past. Writing it all the
     /// same would cost time, and where it goes over the network wake RustDDS's thread, beside the control loop.
     fn is_unheard(&self) -> bool {
-        let nobody_shares = self.local.as_ref().is_none_or(|local| local.writer.readers() == 0);
+        let nobody_shares = self.local.as_ref().is_none_or(|local| {
+            let network_keeps_count = self.to_network && !local.may_be_alone;
+            !network_keeps_count && local.writer.readers() == 0
+        });
         nobody_shares && !self.is_read && self.qos.durability == Durability::Volatile
     }
 
