@@ -1,4 +1,5 @@
 //! Choosing places from the start: which fragments a robot may choose where those ahead tell what they have chosen.
+
 use super::encroach::is_near;
 use super::{Agent, Encroaching, Surroundings};
 use crate::Vector2;
