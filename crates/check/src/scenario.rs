@@ -9,7 +9,7 @@ use trench_formation::curve::{Curve, Placed};
 use trench_formation::hull::{Outline, combine};
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
-use trench_formation::simulate::{ChainScenario, Encroaching};
+use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::{AnyTrench, check_admissibility};
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
 
@@ -137,11 +137,7 @@ fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability
 
 /// Radius of the robots' bodies, where the scenario says one.
 fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
-    match (task.options.safety, task.encroaching) {
-        (Some(safety), _) => Some(safety.radius),
-        (None, Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndPlaces(radius)) => Some(radius),
-        (None, _) => None,
-    }
+    task.options.safety.map(|safety| safety.radius).or(task.encroaching.robot_radius())
 }
 
 /// Whether a robot passes all gaps that are left between hulls.

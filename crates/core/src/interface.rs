@@ -58,6 +58,13 @@ pub enum Local {
     },
 }
 
+impl Local {
+    /// What a message of a robot's state, a command or a measurement surely fits in, bytes.
+    pub const SMALL_LEN: usize = 1024;
+    /// For such messages.
+    pub const SMALL: Self = Self::SharedMemory { max_len: Self::SMALL_LEN };
+}
+
 /// A topic that the core reads.
 #[derive(Debug, Clone)]
 pub struct Subscribe {

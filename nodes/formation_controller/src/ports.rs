@@ -34,9 +34,6 @@ pub(crate) const MARKERS: usize = 4;
 /// The frame of all that a controller says.
 pub(crate) const MAP: &str = "map";
 
-/// Room for one small message in shared memory.
-const SMALL: Local = Local::SharedMemory { max_len: 1024 };
-
 /// All topics of a controller that hears `others`.
 pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
     // Goals, obstacles and what the others say are used at the next tick, and wake nobody.
@@ -61,9 +58,9 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
     let max_len = longest_state(robot, others).encoded_len();
     let command = format!("/{robot}/cmd_vel");
     let command = if settings.stamped {
-        Advertise::of::<TwistStamped>(command, Qos::RELIABLE, SMALL)
+        Advertise::of::<TwistStamped>(command, Qos::RELIABLE, Local::SMALL)
     } else {
-        Advertise::of::<Twist>(command, Qos::RELIABLE, SMALL)
+        Advertise::of::<Twist>(command, Qos::RELIABLE, Local::SMALL)
     };
     Interface {
         subscriptions,
@@ -75,7 +72,7 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
                 Local::SharedMemory { max_len },
             ),
             Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly),
-            Advertise::of::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE, SMALL),
+            Advertise::of::<Stability>(format!("/{robot}/stability"), Qos::RELIABLE, Local::SMALL),
             Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly),
         ],
         ..Interface::default()

@@ -31,9 +31,6 @@ const LOOK: f64 = 0.1;
 const TARGET_PERIOD: f64 = 0.02;
 const LINE: f64 = 2.0;
 
-/// Room for the target in shared memory: 36 + 36 covariances.
-const SMALL: Local = Local::SharedMemory { max_len: 1024 };
-
 /// Arms, starts, watches, stops, judges.
 pub struct Operator {
     interface: Interface,
@@ -103,7 +100,7 @@ fn interface(settings: &Settings) -> Interface {
         };
         subscriptions.extend(settings.robots.iter().map(state));
     }
-    let target = settings.route.iter().map(|_| Advertise::of::<Odometry>("/target", Qos::RELIABLE, SMALL));
+    let target = settings.route.iter().map(|_| Advertise::of::<Odometry>("/target", Qos::RELIABLE, Local::SMALL));
     Interface {
         subscriptions,
         publications: target.collect(),

@@ -271,9 +271,6 @@ fn blind(parameters: &Parameters) -> ConfigError {
     parameters.error("mount_file", "a camera does not see a pad below it", "measure it again")
 }
 
-/// Names of usual length leave a fifth of it free.
-const ODOMETRY_ROOM: Local = Local::SharedMemory { max_len: 1024 };
-
 fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     let write =
         |topic: String, type_info: &'static TypeInfo, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
@@ -288,7 +285,7 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
         write("/markers".to_owned(), MarkerArray::TYPE, Local::NetworkOnly),
     ];
     publications.extend(
-        tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, ODOMETRY_ROOM)),
+        tracker.tracks().iter().map(|track| write(format!("/{}/odom", track.name), Odometry::TYPE, Local::SMALL)),
     );
     publications.push(write("/identify".to_owned(), Identify::TYPE, Local::SharedMemory { max_len: 512 }));
     publications

@@ -80,9 +80,6 @@ fn restored(checkpoint: Option<&[u8]>) -> (u64, bool) {
     }
 }
 
-/// What any other report of a robot surely fits in, bytes.
-const LONGEST: usize = 1024;
-
 fn interface(settings: &Settings) -> Interface {
     let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
     let mut subscriptions = vec![
@@ -92,7 +89,7 @@ fn interface(settings: &Settings) -> Interface {
     // The longest is a link on which everybody is heard.
     let robots = settings.robots.iter().map(|(name, _)| name.clone());
     let link = LinkStatus { hears: robots.collect(), ..LinkStatus::default() };
-    let max_len = link.encoded_len().max(LONGEST);
+    let max_len = link.encoded_len().max(Local::SMALL_LEN);
     let advertise = |topic: String, type_info| Advertise {
         topic,
         type_info,

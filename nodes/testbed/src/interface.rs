@@ -73,9 +73,6 @@ pub(crate) fn pixel_bytes(lens: &Lens) -> usize {
     3 * lens.width as usize * lens.height as usize
 }
 
-/// Room for a short message in shared memory.
-const SMALL: Local = Local::SharedMemory { max_len: 1024 };
-
 fn interface(settings: &Settings) -> (Interface, Ports) {
     let mut publications = Vec::new();
     let mut advertise = |topic: &str, type_info: &'static TypeInfo, qos: Qos, local: Local| {
@@ -87,7 +84,7 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
     let contacts = advertise("/ground_truth/contacts", DiagnosticArray::TYPE, Qos::RELIABLE, network);
     let camera = |view: &Overhead| {
         let (lens, frame_id) = (view.camera.lens(), view.frame_id());
-        let info = advertise(&view.topic("camera_info"), CameraInfo::TYPE, Qos::RELIABLE, SMALL);
+        let info = advertise(&view.topic("camera_info"), CameraInfo::TYPE, Qos::RELIABLE, Local::SMALL);
         let frames = if settings.render {
             let max_len = image(lens, &frame_id, trench_core::RosTime(0)).encoded_len_with(pixel_bytes(lens));
             let local = Local::SharedMemoryOnly { max_len };
@@ -105,7 +102,7 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
     let truth = publications.len();
     for robot in &settings.robots {
         let topic = format!("/ground_truth/{robot}/odom");
-        publications.push(Advertise { topic, type_info: Odometry::TYPE, qos: Qos::RELIABLE, local: SMALL });
+        publications.push(Advertise { topic, type_info: Odometry::TYPE, qos: Qos::RELIABLE, local: Local::SMALL });
     }
     let scans = publications.len();
     for robot in settings.bed.lasers.iter().filter_map(|index| settings.robots.get(*index)) {

@@ -63,6 +63,16 @@ pub enum Encroaching {
     ObstaclesAndPlaces(f64),
 }
 
+impl Encroaching {
+    /// The radius that robots ahead encroach with, m; none where they do not.
+    pub fn robot_radius(self) -> Option<f64> {
+        match self {
+            Self::ObstaclesAndRobots(radius) | Self::ObstaclesAndPlaces(radius) => Some(radius),
+            Self::Nothing | Self::Obstacles => None,
+        }
+    }
+}
+
 /// Watching for local minima and raising guards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Remedies {

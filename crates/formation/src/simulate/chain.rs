@@ -1,7 +1,7 @@
 //! Stepping a chain.
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
-use super::{ChainScenario, Encroaching, ScenarioError};
+use super::{ChainScenario, ScenarioError};
 use crate::Vector2;
 use crate::agent::{Action, Agent, Leader, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
@@ -141,10 +141,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         self.vicinity.look(&self.scenario, &self.seen, &self.real);
-        let encroach = matches!(
-            self.scenario.encroaching,
-            Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_)
-        );
+        let encroach = self.scenario.encroaching.robot_radius().is_some();
         if moves || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;
         }

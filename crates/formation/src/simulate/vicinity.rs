@@ -1,6 +1,6 @@
 //! What is near each robot at a tick: the robots ahead that may push it, and the lines of the safety filter.
+use super::ChainScenario;
 use super::neighbours::Neighbours;
-use super::{ChainScenario, Encroaching};
 use crate::Vector2;
 use crate::hull::Obstacle;
 use crate::kinematics::PointState;
@@ -92,7 +92,7 @@ impl Vicinity {
 
 /// How far robots act on each other by their potentials until the next tick, m; nothing if that has no bound, or all matter.
 fn reach_of_potentials<T>(scenario: &ChainScenario<T>) -> Option<f64> {
-    if matches!(scenario.encroaching, Encroaching::ObstaclesAndRobots(_) | Encroaching::ObstaclesAndPlaces(_)) {
+    if scenario.encroaching.robot_radius().is_some() {
         return None;
     }
     let later = match (scenario.steps_per_tick, scenario.options.limits) {
