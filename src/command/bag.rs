@@ -77,7 +77,7 @@ fn told(done: Result<(), impl Display>) -> ExitCode {
 }
 
 fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
-    let bag = open(path)?;
+    let bag = with_damage_told(BagReader::examine(path)?);
     let mut writer = BagWriter::create(out, WriteOptions::default())?;
     let copied = copy(&bag, &mut writer);
     // Also a copy that a full disk ended is finished: it is a bag.
@@ -103,11 +103,10 @@ fn copy(bag: &BagReader, writer: &mut BagWriter) -> Result<(), BagError> {
     Ok(())
 }
 
-/// Opens a bag and says what is damaged.
-fn open(path: &Path) -> Result<BagReader, BagError> {
-    let bag = BagReader::open(path)?;
+/// Says what is damaged.
+fn with_damage_told(bag: BagReader) -> BagReader {
     for damage in bag.damage() {
         eprintln!("trench bag: {damage}");
     }
-    Ok(bag)
+    bag
 }

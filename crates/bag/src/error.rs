@@ -52,8 +52,11 @@ pub enum BagError {
         /// The most a reader keeps.
         limit: u64,
     },
-    /// A chunk that was intact when the bag was opened is so no more.
-    #[error("{path}: the chunk at byte {offset} changed while it was being read")]
+    /// A chunk that was intact when the bag was opened, or that the file's own checksum vouched for, is not.
+    #[error(
+        "{path}: the chunk at byte {offset} is not what the file says of it: it changed while it was being read, or was \
+         written so; `trench bag recover` copies what is intact"
+    )]
     Changed {
         /// The file.
         path: PathBuf,

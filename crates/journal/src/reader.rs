@@ -63,6 +63,18 @@ impl JournalReader {
         &self.path
     }
 
+    /// How many steps it has; its start and its end count too.
+    #[must_use]
+    pub fn step_count(&self) -> u64 {
+        self.bag.message_count()
+    }
+
+    /// The length of the file, bytes.
+    #[must_use]
+    pub fn length(&self) -> u64 {
+        self.bag.files().map(|(_, length)| length).sum()
+    }
+
     /// What the core was made from.
     #[must_use]
     pub fn start(&self) -> &Start {

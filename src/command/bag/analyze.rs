@@ -2,7 +2,7 @@
 
 use super::super::plot::diagrams;
 use super::super::say;
-use super::open;
+use super::with_damage_told;
 use clap::Args;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -54,7 +54,7 @@ pub(super) enum AnalyzeError {
 impl Analyze {
     /// Reads and prints.
     pub(super) fn run(&self) -> Result<(), AnalyzeError> {
-        let bag = open(&self.bag)?;
+        let bag = with_damage_told(BagReader::open(&self.bag)?);
         if !self.noise.is_empty() {
             return self.tell_noise(&bag);
         }

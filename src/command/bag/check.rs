@@ -1,6 +1,7 @@
 //! `trench bag check`: feeds journals to the cores they are of and compares.
 
 mod find;
+mod parallel;
 mod plot;
 mod show;
 
@@ -8,14 +9,13 @@ use super::super::say;
 use clap::Args;
 use find::FindError;
 use plot::DivergenceError;
+use std::cmp::Reverse;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 use trench_config::ConfigError;
 use trench_harness::replay::{self, ReplayError, Report, Tolerances, Verdict};
-use trench_journal::JournalReader;
+use trench_journal::{JournalError, JournalReader};
 
 /// The exit code when an output differs.
 const DIFFERS: u8 = 1;
@@ -102,17 +102,10 @@ impl Check {
             Some(name) => find::of_node(paths, name)?,
             None => paths,
         };
-        let next = AtomicUsize::new(0);
-        let checked = Mutex::new(Vec::new());
-        let work = || {
-            while let Some(path) = paths.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let one = check(path, self.update, tolerances);
-                checked.lock().unwrap_or_else(PoisonError::into_inner).push(one);
-            }
-        };
-        let processors = std::thread::available_parallelism().map_or(1, usize::from);
-        std::thread::scope(|scope| (0..processors.min(paths.len())).for_each(|_| drop(scope.spawn(work))));
-        let mut checked = checked.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut opened = parallel::each(paths, |path| (JournalReader::open(&path), path));
+        // The longest work first, so that nobody waits for it at the end.
+        opened.sort_by_key(|(journal, _)| Reverse(journal.as_ref().map_or(0, work_of)));
+        let mut checked = parallel::each(opened, |(journal, path)| check(path, journal, self.update, tolerances));
         checked.sort_by(|a, b| a.path.cmp(&b.path));
         Ok(checked)
     }
@@ -123,9 +116,18 @@ fn read_tolerances(path: &Path) -> Result<Tolerances, CheckError> {
     Ok(Tolerances::parse(&path.display().to_string(), &text)?)
 }
 
-fn check(path: &Path, update: bool, tolerances: &Tolerances) -> Checked {
-    let path = path.to_owned();
-    let journal = match JournalReader::open(&path) {
+/// About how much work a journal is: a step takes as long as 128 bytes.
+fn work_of(journal: &JournalReader) -> u64 {
+    journal.step_count() + journal.length() / 128
+}
+
+fn check(
+    path: PathBuf,
+    journal: Result<JournalReader, JournalError>,
+    update: bool,
+    tolerances: &Tolerances,
+) -> Checked {
+    let journal = match journal {
         Ok(journal) => journal,
         Err(error) => return Checked { path, result: Err(error.into()), is_updated: false },
     };

@@ -33,8 +33,8 @@ pub(super) struct Player {
 }
 
 impl Player {
-    /// Nothing where there is nothing to play.
-    pub(super) fn new(bag: Arc<BagReader>, settings: Settings) -> Option<Self> {
+    /// A player of a bag, given the length of the longest message of each topic. Nothing where there is nothing to play.
+    pub(super) fn new(bag: Arc<BagReader>, longest: &[usize], settings: Settings) -> Option<Self> {
         let (first, last) = bag.span()?;
         let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;
         let from = first.saturating_add(nanoseconds(settings.start_offset));
@@ -42,7 +42,7 @@ impl Player {
             duration if duration < 0.0 => last,
             duration => from.saturating_add(nanoseconds(duration)).min(last),
         };
-        let Publications { advertised, of_topic, clock } = Publications::new(bag.topics(), &settings);
+        let Publications { advertised, of_topic, clock } = Publications::new(bag.topics(), longest, &settings);
         let interface = Interface {
             publications: advertised,
             services: services(),

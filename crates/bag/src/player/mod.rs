@@ -33,6 +33,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     let settings = Settings::new(parameters)?;
     let problem = |problem: String| parameters.error("bag", problem, "name a bag's folder or an .mcap file");
     let bag = BagReader::open(Path::new(&settings.bag)).map_err(|error| problem(error.to_string()))?;
-    let player = core::Player::new(Arc::new(bag), settings);
+    let longest = bag.longest().map_err(|error| problem(error.to_string()))?;
+    let player = core::Player::new(Arc::new(bag), &longest, settings);
     Ok(Box::new(player.ok_or_else(|| problem("holds no message of the topics and times that are chosen".to_owned()))?))
 }

@@ -20,15 +20,16 @@ pub(super) struct Publications {
 }
 
 impl Publications {
-    pub(super) fn new(topics: &[Topic], settings: &Settings) -> Self {
+    /// `longest` is the length of the longest message of each topic, bytes.
+    pub(super) fn new(topics: &[Topic], longest: &[usize], settings: &Settings) -> Self {
         let mut advertised = Vec::new();
         let mut of_topic = Vec::new();
-        for topic in topics {
+        for (topic, &max_len) in topics.iter().zip(longest) {
             // The recorded clock would contradict this node's.
             let is_old_clock = topic.name == CLOCK && settings.has_clock();
             let is_played = settings.selection.takes(&topic.name) && topic.message_count > 0 && !is_old_clock;
             of_topic.push(is_played.then_some(advertised.len()));
-            advertised.extend(is_played.then(|| advertise(topic)));
+            advertised.extend(is_played.then(|| advertise(topic, max_len)));
         }
         let clock = settings.has_clock().then_some(advertised.len());
         advertised.extend(clock.map(|_| Advertise::of::<Clock>(CLOCK, Qos::RELIABLE, Local::NetworkOnly)));
@@ -36,8 +37,7 @@ impl Publications {
     }
 }
 
-fn advertise(topic: &Topic) -> Advertise {
-    let max_len = topic.largest;
+fn advertise(topic: &Topic, max_len: usize) -> Advertise {
     let is_image = matches!(&*topic.type_name, "sensor_msgs/msg/Image" | "sensor_msgs/msg/CompressedImage");
     let local = match is_image && max_len > LARGE {
         true => Local::SharedMemoryOnly { max_len },
@@ -67,7 +67,6 @@ mod tests {
             definition: "float64 other\n".to_owned(),
             offered_qos: String::new(),
             message_count: 1,
-            largest: 12,
         };
         let known = trench_msgs::type_named("std_msgs/msg/Float64").unwrap();
         assert_eq!(type_info(&topic("std_msgs/msg/Float64", "")), known);

@@ -61,6 +61,21 @@ impl BagFile {
         Ok(bytes)
     }
 
+    /// CRC-32 of the first `length` bytes.
+    pub(super) fn checksum(&self, length: u64) -> io::Result<u32> {
+        let mut hasher = crc32fast::Hasher::new();
+        let mut buffer = vec![0; 1 << 16];
+        let mut at = 0;
+        while at < length {
+            let part = (length - at).min(buffer.len() as u64) as usize;
+            let bytes = buffer.get_mut(..part).unwrap_or_default();
+            self.file.read_exact_at(bytes, at)?;
+            hasher.update(bytes);
+            at += part as u64;
+        }
+        Ok(hasher.finalize())
+    }
+
     /// The records of a block; nothing where they are no longer what the scan has found.
     pub(super) fn load(&self, block: &Block) -> io::Result<Option<Vec<u8>>> {
         let bytes = self.read(block.offset, block.length)?;

@@ -9,6 +9,7 @@ mod summary_section;
 
 use crate::{BagError, TopicType, metadata, qos};
 use file::BagFile;
+use scan::Trust;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,8 +32,6 @@ pub struct Topic {
     pub offered_qos: String,
     /// How many intact messages the bag holds.
     pub message_count: u64,
-    /// The length of the longest of them, bytes.
-    pub largest: usize,
 }
 
 impl Topic {
@@ -70,15 +69,28 @@ pub struct BagReader {
 
 impl BagReader {
     /// Opens a bag's folder, or a single `.mcap` file, and checks every chunk of it. A folder without `metadata.yaml`
-    /// (its recorder was killed) is read by its `.mcap` files in the order of their numbers.
+    /// (its recorder was killed) is read by its `.mcap` files in the order of their numbers. A file that has an intact
+    /// summary and whose data agree with their checksum is taken at its word.
     ///
     /// # Errors
     /// When there is no bag at `path`. Damage inside the files is no error: see [`BagReader::damage`].
     pub fn open(path: &Path) -> Result<Self, BagError> {
+        Self::read(path, Trust::Checksum)
+    }
+
+    /// As [`BagReader::open`], but takes no file at its word: looks into every chunk.
+    ///
+    /// # Errors
+    /// When there is no bag at `path`.
+    pub fn examine(path: &Path) -> Result<Self, BagError> {
+        Self::read(path, Trust::Nothing)
+    }
+
+    fn read(path: &Path, trust: Trust) -> Result<Self, BagError> {
         let mut reader =
             Self { path: path.to_owned(), files: Vec::new(), topics: Vec::new(), damage: Vec::new(), span: None };
         for file in files_of(path)? {
-            let scanned = scan::scan(&file, &mut reader.topics)?;
+            let scanned = scan::scan(&file, trust, &mut reader.topics)?;
             reader.damage.extend(scanned.damage.into_iter().map(|what| Damage { path: file.clone(), what }));
             for block in &scanned.file.blocks {
                 let (first, last) = reader.span.unwrap_or((block.first, block.last));
@@ -123,6 +135,21 @@ impl BagReader {
     #[must_use]
     pub fn message_count(&self) -> u64 {
         self.topics.iter().map(|topic| topic.message_count).sum()
+    }
+
+    /// The length of the longest message of each topic, bytes, in the order of [`BagReader::topics`]. Reads the whole bag.
+    ///
+    /// # Errors
+    /// When a file cannot be read to its end.
+    pub fn longest(&self) -> Result<Vec<usize>, BagError> {
+        let mut longest = vec![0; self.topics.len()];
+        for message in self.messages() {
+            let message = message?;
+            if let Some(length) = longest.get_mut(message.topic) {
+                *length = message.len().max(*length);
+            }
+        }
+        Ok(longest)
     }
 
     /// The names of its files and their sizes in bytes.

@@ -1,4 +1,5 @@
 //! The first pass over a file: finds its blocks, checks each, learns channels, counts messages, notes what is damaged.
+//! Of a file that vouches for itself (see [`super::summary_section`]) it only finds the blocks.
 //!
 //! Where the framing breaks, the scan looks for the next chunk by its header and goes on there, so that damage in one
 //! place costs one chunk.
@@ -8,13 +9,13 @@ mod resync;
 
 use super::file::{BagFile, Block};
 use super::record::{self, MAX_CHUNK_HEADER, MessageRecord, PREFIX};
-use super::{Topic, chunk, summary_section};
+use super::summary_section::{self, Summary};
+use super::{Topic, chunk};
 use crate::BagError;
 use channels::{Channels, Totals};
 use mcap::records::{ChunkHeader, Record, op};
 use std::fs::File;
 use std::io;
-use std::os::unix::fs::FileExt;
 use std::path::Path;
 
 /// Messages outside chunks are gathered into blocks of no more than this many bytes.
@@ -24,6 +25,15 @@ const MOST_DAMAGE: usize = 1000;
 /// The longest definition of a topic or type that is read, bytes.
 pub(super) const LARGEST_DEFINITION: usize = 1 << 20;
 
+/// What is enough to call a file intact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Trust {
+    /// That its data agree with their checksum, and its summary with its own.
+    Checksum,
+    /// Nothing but a look into each chunk.
+    Nothing,
+}
+
 /// A scanned file.
 pub(super) struct Scanned {
     pub(super) file: BagFile,
@@ -31,13 +41,16 @@ pub(super) struct Scanned {
 }
 
 /// Scans the file at `path`, adding its topics and message counts to `topics`.
-pub(super) fn scan(path: &Path, topics: &mut Vec<Topic>) -> Result<Scanned, BagError> {
+pub(super) fn scan(path: &Path, trust: Trust, topics: &mut Vec<Topic>) -> Result<Scanned, BagError> {
     let handle = File::open(path).map_err(BagError::io(path))?;
     let length = handle.metadata().map_err(BagError::io(path))?.len();
     let file =
         BagFile { path: path.to_owned(), file: handle, length, channels: Default::default(), blocks: Vec::new() };
     let mut channels = Channels::new(topics);
-    let expected = summary_section::read(&file, &mut channels);
+    let summary = summary_section::read(&file, &mut channels);
+    let is_trusted = |summary: &Summary| trust == Trust::Checksum && summary.is_vouched;
+    let is_vouched =
+        summary.as_ref().is_some_and(|summary| is_trusted(summary) && channels.believe(&summary.statistics));
     let mut scan = Scan {
         file,
         channels,
@@ -46,12 +59,13 @@ pub(super) fn scan(path: &Path, topics: &mut Vec<Topic>) -> Result<Scanned, BagE
         loose: Vec::new(),
         is_loose_open: false,
         finished: false,
+        is_vouched,
     };
     let magic_is_good = scan.run().map_err(BagError::io(path))?;
     if !magic_is_good && scan.file.blocks.is_empty() {
         return Err(BagError::NotMcap(path.to_owned()));
     }
-    scan.report_losses(expected);
+    scan.report_losses(summary.map(|summary| summary.statistics.message_count));
     let Scan { mut file, channels, damage, .. } = scan;
     file.channels = channels.finish();
     file.blocks.sort_by_key(|block| block.offset);
@@ -64,11 +78,13 @@ struct Scan<'a> {
     damage: Vec<String>,
     /// Damage beyond the most that is listed.
     untold: u64,
-    /// Blocks of messages outside chunks, with the channel and the length of each message.
-    loose: Vec<(Block, Vec<(u16, u32)>)>,
+    /// Blocks of messages outside chunks, with the channel of each message.
+    loose: Vec<(Block, Vec<u16>)>,
     /// Whether the next message can join the last of these blocks: nothing but small records is in between.
     is_loose_open: bool,
     finished: bool,
+    /// Whether the file is as it was written, and its messages are counted already.
+    is_vouched: bool,
 }
 
 impl Scan<'_> {
@@ -103,7 +119,12 @@ impl Scan<'_> {
             let memory = header.uncompressed_size;
             let block = Block { offset, length: end - offset, is_chunk: true, first: 0, last: 0, memory };
             self.is_loose_open = false;
-            self.chunk(block, &header, body_offset + skip as u64)?;
+            let (first, last) = (header.message_start_time, header.message_end_time);
+            // Also chunks without messages say that their times are zero.
+            match self.is_vouched && last > 0 {
+                true => self.file.blocks.push(Block { first, last, ..block }),
+                false => self.chunk(block, &header, body_offset + skip as u64)?,
+            }
             return Ok(Some(end));
         }
         self.is_loose_open &= length < LOOSE_BLOCK;
@@ -139,7 +160,7 @@ impl Scan<'_> {
             if opcode != op::MESSAGE {
                 self.definition(opcode, records.get(start..end).unwrap_or_default());
             } else if let Some(message) = record::message(&records, start, end)
-                && self.channels.count(message.channel, message.end - message.start)
+                && self.count(message.channel)
             {
                 let (first, last) = span.unwrap_or((message.log_time, message.log_time));
                 span = Some((first.min(message.log_time), last.max(message.log_time)));
@@ -155,24 +176,25 @@ impl Scan<'_> {
         Ok(())
     }
 
+    /// Counts a message, unless the summary did. Whether its channel is known.
+    fn count(&mut self, channel: u16) -> bool {
+        if self.is_vouched { self.channels.is_known(channel) } else { self.channels.count(channel) }
+    }
+
     fn loose_message(&mut self, offset: u64, end: u64, body: &[u8]) {
-        let Some(MessageRecord { channel, log_time, start, end: stop, .. }) = record::message(body, 0, body.len())
-        else {
-            return;
-        };
-        let counted = (channel, u32::try_from(stop - start).unwrap_or(u32::MAX));
+        let Some(MessageRecord { channel, log_time, .. }) = record::message(body, 0, body.len()) else { return };
         match self.loose.last_mut() {
-            Some((block, messages)) if self.is_loose_open && end - block.offset <= LOOSE_BLOCK => {
+            Some((block, channels)) if self.is_loose_open && end - block.offset <= LOOSE_BLOCK => {
                 block.length = end - block.offset;
                 block.memory = block.length;
                 block.first = block.first.min(log_time);
                 block.last = block.last.max(log_time);
-                messages.push(counted);
+                channels.push(channel);
             }
             _ => {
                 let length = end - offset;
                 let block = Block { offset, length, is_chunk: false, first: log_time, last: log_time, memory: length };
-                self.loose.push((block, vec![counted]));
+                self.loose.push((block, vec![channel]));
                 self.is_loose_open = true;
             }
         }
@@ -201,9 +223,9 @@ impl Scan<'_> {
     fn data_end(&mut self, offset: u64, body: &[u8]) -> io::Result<()> {
         self.finished = true;
         let expected = body.first_chunk().map_or(0, |bytes| u32::from_le_bytes(*bytes));
-        if expected != 0 && self.checksum(offset)? != expected {
+        if expected != 0 && !self.is_vouched && self.file.checksum(offset)? != expected {
             self.note("the data contradict their checksum".to_owned());
-            let lost: usize = self.loose.drain(..).map(|(_, messages)| messages.len()).sum();
+            let lost: usize = self.loose.drain(..).map(|(_, channels)| channels.len()).sum();
             if lost > 0 {
                 self.note(format!("{lost} messages outside chunks are lost: which of them changed is unknown"));
             }
@@ -211,26 +233,11 @@ impl Scan<'_> {
         Ok(())
     }
 
-    /// CRC-32 of the first `length` bytes.
-    fn checksum(&self, length: u64) -> io::Result<u32> {
-        let mut hasher = crc32fast::Hasher::new();
-        let mut buffer = vec![0; 1 << 16];
-        let mut at = 0;
-        while at < length {
-            let part = (length - at).min(buffer.len() as u64) as usize;
-            let bytes = buffer.get_mut(..part).unwrap_or_default();
-            self.file.file.read_exact_at(bytes, at)?;
-            hasher.update(bytes);
-            at += part as u64;
-        }
-        Ok(hasher.finalize())
-    }
-
     fn report_losses(&mut self, expected: Option<u64>) {
-        for (block, messages) in std::mem::take(&mut self.loose) {
+        for (block, channels) in std::mem::take(&mut self.loose) {
             let mut is_known = false;
-            for (channel, length) in messages {
-                is_known |= self.channels.count(channel, length as usize);
+            for channel in channels {
+                is_known |= self.count(channel);
             }
             if is_known {
                 self.file.blocks.push(block);

@@ -10,3 +10,4 @@ mod recorder;
 mod round_trip;
 mod runs;
 mod split;
+mod vouched;

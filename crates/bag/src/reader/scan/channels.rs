@@ -1,7 +1,7 @@
 //! Which topic a channel is, and how many messages it has.
 
 use crate::reader::Topic;
-use mcap::records::Channel;
+use mcap::records::{Channel, Statistics};
 use std::collections::BTreeMap;
 
 /// The most that all definitions of a file may take in memory, bytes: a few compressed bytes can claim thousands of
@@ -86,24 +86,35 @@ impl<'a> Channels<'a> {
         {
             return;
         }
-        self.topics.push(Topic { name, type_name, type_hash, definition, offered_qos, message_count: 0, largest: 0 });
+        self.topics.push(Topic { name, type_name, type_hash, definition, offered_qos, message_count: 0 });
         self.channels.insert(channel.id, self.topics.len() - 1);
     }
 
-    /// Counts a message of `length` bytes. Whether its channel is known.
-    pub(super) fn count(&mut self, channel: u16, length: usize) -> bool {
-        match self.channels.get(&channel).and_then(|&index| self.topics.get_mut(index)) {
-            Some(topic) => {
-                topic.message_count += 1;
-                topic.largest = topic.largest.max(length);
-                self.totals.counted += 1;
-                true
-            }
-            None => {
-                self.totals.unknown += 1;
-                false
-            }
-        }
+    /// Counts a message. Whether its channel is known.
+    pub(super) fn count(&mut self, channel: u16) -> bool {
+        let is_known = self.add(channel, 1);
+        self.totals.unknown += u64::from(!is_known);
+        is_known
+    }
+
+    /// Counts all messages of a file as its statistics do; nothing where these are not of the channels known here.
+    pub(super) fn believe(&mut self, statistics: &Statistics) -> bool {
+        let counts = &statistics.channel_message_counts;
+        let sum = counts.values().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+        let is_believed = sum == Some(statistics.message_count) && counts.keys().all(|&id| self.is_known(id));
+        is_believed && counts.iter().all(|(&channel, &count)| self.add(channel, count))
+    }
+
+    pub(super) fn is_known(&self, channel: u16) -> bool {
+        self.channels.contains_key(&channel)
+    }
+
+    fn add(&mut self, channel: u16, count: u64) -> bool {
+        let topic = self.channels.get(&channel).and_then(|&index| self.topics.get_mut(index));
+        let Some(topic) = topic else { return false };
+        topic.message_count = topic.message_count.saturating_add(count);
+        self.totals.counted = self.totals.counted.saturating_add(count);
+        true
     }
 
     pub(super) fn totals(&self) -> Totals {
