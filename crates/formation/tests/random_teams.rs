@@ -18,11 +18,13 @@ const SEEDS: u64 = 1000;
 const SAMPLE: u64 = 40;
 /// Seeds whose teams were late: 2 and 6 until robots ahead kept all of their zone 2 free on the segment, 16 until a robot held by a
 /// guard was led round, 4 and 15 until leaders drew on nobody within 7 m; 18, 20, 22, 34, 39, 99 and 113 until robots told which places
-/// they had chosen, 81 until they left room for those behind, 190 until those that had arrived stayed while obstacles pass.
-const ONCE_LATE: [u64; 14] = [2, 4, 6, 15, 16, 18, 20, 22, 34, 39, 81, 99, 113, 190];
+/// they had chosen, 81 until they left room for those behind, 190 until those that had arrived stayed while obstacles pass; 761 until
+/// robots that are led round others did without their leader's attraction, 765 until their ways might begin away from the target.
+const ONCE_LATE: [u64; 16] = [2, 4, 6, 15, 16, 18, 20, 22, 34, 39, 81, 99, 113, 190, 761, 765];
 
-/// Seeds whose teams are late.
-const STILL_LATE: [u64; 3] = [676, 761, 765];
+/// Seeds whose teams are late. 676: an obstacle of 0.06 m/s creeps across the segment and takes places away one after the other;
+/// seven robots go to the other end, past those that stand.
+const STILL_LATE: [u64; 1] = [676];
 
 fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok().and_then(|text| text.parse().ok())

@@ -7,8 +7,18 @@ fn file(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../config/scenarios/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// Replaces `old` in a scenario file and checks that the error names the line of `new` and has the texts expected.
+/// Replaces `old` in a scenario file and checks that the error names file and line of `new`, says what would be right, and has the texts
+/// expected.
 fn check(name: &str, old: &str, new: &str, expected: &[&str]) {
+    let text = file(name).replace(old, new);
+    let line = told(name, old, new, expected);
+    // That of the mistake, or of the list or mapping that it is in.
+    let first = text[..text.find(new).unwrap()].lines().count().max(1);
+    assert!((first - 1..=first + 1 + new.lines().count()).contains(&line), "line {line}, not about {first}");
+}
+
+/// The line that is named, wherever that is.
+fn told(name: &str, old: &str, new: &str, expected: &[&str]) -> usize {
     let text = file(name);
     assert_eq!(text.matches(old).count(), 1, "{old:?} must stand once in {name}");
     let text = text.replace(old, new);
@@ -17,10 +27,13 @@ fn check(name: &str, old: &str, new: &str, expected: &[&str]) {
         Ok(_) => panic!("{new:?} was accepted"),
     };
     let told = error.to_string();
-    assert!(told.starts_with(&format!("{name}:{}:", error.origin.line)) && error.origin.line > 0, "{told}");
+    let line = error.origin.line as usize;
+    assert!(line > 0 && told.starts_with(&format!("{name}:{line}:")), "{told}");
+    assert!(!error.remedy.is_empty() || error.problem.contains(": move"), "{told:?} has no remedy");
     for part in expected {
         assert!(told.contains(part), "{told:?} lacks {part:?}");
     }
+    line
 }
 
 const SEGMENT: &str = "{kind: line, points: [[-20.0, 0.0], [20.0, 0.0]]}";
@@ -62,8 +75,8 @@ fn robots() {
     check("6.5.yaml", first, "- {position: [26.0, 29.7], velocty: [0, 0]}", &["velocty", "did you mean `velocity`?"]);
     let one = "- {position: [1.0, 9.0]}";
     check("7.11.yaml", &format!("robots:\n{one}"), "robots: []", &["robots", "is empty", "at least one"]);
-    // r10 is lowest on the diagonal: a segment that begins farther up has no point of attraction for it.
-    check(
+    // r9 and r10 are lowest on the diagonal: a segment that begins farther up has no point of attraction for them.
+    told(
         "6.5.yaml",
         "[[-5.0, -5.0], [100.0, 100.0]]",
         "[[5.0, 5.0], [100.0, 100.0]]",

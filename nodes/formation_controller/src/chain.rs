@@ -4,7 +4,9 @@ use crate::dynamic::{DynamicSettings, Reference};
 use crate::hold::Hold;
 use crate::inputs::Ahead;
 use crate::tick::{Command, Tick, Wanted};
+use nalgebra::Isometry2;
 use trench_core::{RosTime, Times};
+use trench_formation::Vector2;
 use trench_formation::kinematics::{PointState, Pose};
 use trench_formation::laws::Lyapunov;
 use trench_msgs::msg::{LeaderState, Member};
@@ -16,15 +18,18 @@ pub(crate) struct Chain {
     pub(crate) leader: Option<Ahead>,
     /// Those before.
     pub(crate) others: Vec<PointState>,
+    /// The places that all of them have chosen, the leader's last, m, map; where they are if they have chosen none.
+    pub(crate) places: Vec<Vector2<f64>>,
 }
 
 impl Tick {
-    /// The robots ahead in the chain at `acts`.
+    /// The robots ahead in the chain at `acts`, when the formation's frame is at `map_from_segment`.
     pub(crate) fn robots_ahead(
         &self,
         settings: &DynamicSettings,
         member: &Member,
         (at, acts): (Times, RosTime),
+        map_from_segment: Isometry2<f64>,
     ) -> Result<Chain, Hold> {
         let mut chain = Chain::default();
         if !settings.law.follows(member.rank) {
@@ -32,10 +37,18 @@ impl Tick {
         }
         for other in self.inputs.members_ahead(member) {
             let ahead = self.inputs.teammate(&other.robot, (at, acts), settings.leader_age);
-            if other.rank + 1 == member.rank {
-                chain.leader = Some(ahead.ok_or_else(|| Hold::NoLeader(other.robot.clone()))?);
-            } else if let Some(ahead) = ahead {
+            let leads = other.rank + 1 == member.rank;
+            let Some(ahead) = ahead else {
+                if leads {
+                    return Err(Hold::NoLeader(other.robot.clone()));
+                }
                 // Those farther ahead only matter when they come near: one that is silent the filter sees then.
+                continue;
+            };
+            chain.places.push(ahead.place_in(map_from_segment));
+            if leads {
+                chain.leader = Some(ahead);
+            } else {
                 chain.others.push(ahead.leader.state);
             }
         }
@@ -66,6 +79,8 @@ impl Tick {
         Ok(Wanted {
             twist: self.twist(settings, ahead, 0.5 * (robot.velocity + end), duration),
             drawn: None,
+            place: None,
+            error: None,
             distance: self.distance.unwrap_or(0.0),
             lyapunov: Lyapunov::default(),
             acceleration: (end - robot.velocity) / duration,

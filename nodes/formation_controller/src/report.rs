@@ -29,6 +29,8 @@ impl Tick {
             point_velocity: point(steered_velocity),
             goal: wanted.and_then(|wanted| wanted.drawn).map(point).unwrap_or_default(),
             goal_distance: self.distance.unwrap_or(0.0),
+            place: point(self.place(command, steered)),
+            error_bound: wanted.and_then(|wanted| wanted.error).map_or(f64::INFINITY, |(_, bound)| bound),
             lyapunov: wanted.map_or(0.0, |wanted| wanted.lyapunov.value),
             lyapunov_rate: wanted.map_or(0.0, |wanted| wanted.lyapunov.rate),
             limited_by: command.limits,
@@ -45,5 +47,15 @@ impl Tick {
             message.conforms = distance <= tolerance;
         }
         message
+    }
+
+    /// Where the robot means to stand, m, frame of the formation: where it is (`point`, map) if it has chosen nothing.
+    fn place(&self, command: &Command, point: Vector2<f64>) -> Vector2<f64> {
+        let chosen = command.wanted.and_then(|wanted| wanted.place);
+        let here = || {
+            let (map_from_segment, _) = self.inputs.goals.frame(command.exposure)?;
+            Some(map_from_segment.inverse_transform_point(&point.into()).coords)
+        };
+        chosen.or_else(here).unwrap_or(point)
     }
 }

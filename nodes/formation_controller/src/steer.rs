@@ -42,8 +42,11 @@ impl Tick {
         // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
         let follows = !(member.leader.is_empty() || command.lost);
         let rank = if follows { member.rank } else { 1 };
-        let ahead_in_chain =
-            if follows { self.robots_ahead(settings, &member, (at, acts)) } else { Ok(Chain::default()) };
+        let ahead_in_chain = if follows {
+            self.robots_ahead(settings, &member, (at, acts), map_from_segment)
+        } else {
+            Ok(Chain::default())
+        };
         let chain = match ahead_in_chain {
             Ok(chain) => chain,
             Err(hold) => return self.slow_down(settings, (robot, acts), ahead, duration, hold, command),
@@ -65,9 +68,8 @@ impl Tick {
             goal: self.drawing(settings, (&member.leader, rank), (at, acts), goal, &chain)?,
             leader: chain.leader.filter(|_| zoned).map(|ahead| ahead.leader),
             ahead: if zoned { &chain.others } else { &[] },
-            // Leader states tell of no places: who encroaches is told by where robots are.
-            places: &[],
-            behind: 0,
+            places: if zoned { &chain.places } else { &[] },
+            behind: self.inputs.members_behind(&member),
             real: &hulls.real,
             apparent: &hulls.apparent,
             velocities: &hulls.velocities,
@@ -81,6 +83,7 @@ impl Tick {
         self.reference = Some(Reference { from: acts, duration, start: robot.velocity, end: driven.end.velocity });
         let action = driven.first;
         let epoch = self.inputs.assignment.as_ref().map_or(0, |assignment| assignment.epoch);
+        let error = self.recursion.observe(settings, &around, robot, chain.leader, &driven);
         let driving =
             Driving { settings, around: &around, leader: chain.leader, driven: &driven, robot, acts, duration, epoch };
         let watched = driving.watched(&mut self.news);
@@ -104,6 +107,8 @@ impl Tick {
         Ok(Wanted {
             twist: self.twist(settings, ahead, driven.mean_velocity, duration),
             drawn: action.attraction,
+            place: action.place.map(|place| map_from_segment.inverse_transform_point(&place.into()).coords),
+            error,
             distance: deviation.or(self.distance).unwrap_or(0.0),
             lyapunov: Lyapunov {
                 value: action.steered.lyapunov,

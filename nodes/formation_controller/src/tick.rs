@@ -3,7 +3,7 @@
 use crate::dynamic::Reference;
 use crate::hold::Hold;
 use crate::inputs::Inputs;
-use crate::monitor::{Monitor, News, Watched};
+use crate::monitor::{Monitor, News, Recursion, Watched};
 use crate::robot::DEVIATION;
 use crate::settings::Settings;
 use crate::team_link::TeamLink;
@@ -29,6 +29,10 @@ pub(crate) struct Wanted {
     pub(crate) twist: Twist,
     /// The point that it drives to, m; none while nothing draws the robot.
     pub(crate) drawn: Option<Vector2<f64>>,
+    /// Where it means to stand, m, frame of the formation; none where it has chosen nothing.
+    pub(crate) place: Option<Vector2<f64>>,
+    /// |e_j| and M_j of chapter 8; none but under the queue law.
+    pub(crate) error: Option<(f64, f64)>,
     /// From there, m.
     pub(crate) distance: f64,
     pub(crate) lyapunov: Lyapunov,
@@ -81,6 +85,8 @@ pub(crate) struct Tick {
     /// Where the law goes on.
     pub(crate) reference: Option<Reference>,
     pub(crate) monitor: Monitor,
+    /// M_j of (8.26).
+    pub(crate) recursion: Recursion,
     /// What was expected at the last tick.
     pub(crate) news: Option<News>,
     /// When to draw, and what was drawn.
@@ -96,6 +102,7 @@ impl Tick {
         let agent = settings.dynamic.as_ref().map(|dynamic| Agent::new(dynamic.agent.clone()));
         Self {
             monitor: Monitor::new(settings.monitor),
+            recursion: Recursion::default(),
             news: None,
             unstable_gains: None,
             draws: false,
@@ -125,6 +132,7 @@ impl Tick {
             (_, None) => None,
         };
         self.monitor = Monitor::new(settings.monitor);
+        self.recursion.restart();
         self.settings = settings;
     }
 
@@ -151,6 +159,7 @@ impl Tick {
                 command.hold = Some(hold);
                 (self.holding, self.reference, self.news) = (false, None, None);
                 self.monitor.restart();
+                self.recursion.restart();
                 if let Some(agent) = &mut self.agent {
                     agent.pause();
                 }
@@ -219,6 +228,9 @@ impl Tick {
             return Err(Hold::NotFinite);
         }
         self.follow_limits(ahead, wanted.twist, command.twist);
+        if command.limits != 0 {
+            self.recursion.restart();
+        }
         self.watch(at, ahead, &wanted, command);
         Ok(())
     }

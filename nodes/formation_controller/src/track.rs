@@ -38,6 +38,8 @@ impl Tick {
             zone: None,
             twist: tracked.twist,
             drawn: Some(goal.position),
+            place: None,
+            error: None,
             distance: tracked.distance,
             lyapunov: tracked.lyapunov,
             acceleration: Vector2::zeros(),

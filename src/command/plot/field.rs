@@ -53,30 +53,25 @@ impl View {
     }
 
     /// The height, in units, of a chart of this width whose two axes have the same scale.
-    pub(super) fn height(&self, width: u32, is_labelled: bool) -> u32 {
-        let labels = if is_labelled { LABELS } else { [0, 0] };
-        let plot_width = f64::from(width - labels[0] - 2 * MARGIN);
+    pub(super) fn height(&self, width: u32) -> u32 {
+        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
         let ratio = (self.y.end - self.y.start) / (self.x.end - self.x.start);
-        (plot_width * ratio).round() as u32 + labels[1] + 2 * MARGIN
+        (plot_width * ratio).round() as u32 + LABELS[1] + 2 * MARGIN
     }
 
     /// A chart that fills `area`, which has the size that [`View::height`] asks for.
-    pub(super) fn chart<'a, 'b>(&self, area: &'a Area<'b>, is_labelled: bool) -> Result<FieldChart<'a, 'b>, String> {
-        let labels = if is_labelled { LABELS } else { [0, 0] };
+    pub(super) fn chart<'a, 'b>(&self, area: &'a Area<'b>) -> Result<FieldChart<'a, 'b>, String> {
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
-            .y_label_area_size(labels[0])
-            .x_label_area_size(labels[1])
+            .y_label_area_size(LABELS[0])
+            .x_label_area_size(LABELS[1])
             .build_cartesian_2d(self.x.clone(), self.y.clone())
             .map_err(text)?;
         let mut mesh = chart.configure_mesh();
         mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
         mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(12).y_labels(9);
         mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
-        if is_labelled {
-            mesh.x_desc("x (m)").y_desc("y (m)");
-        }
-        mesh.draw().map_err(text)?;
+        mesh.x_desc("x (m)").y_desc("y (m)").draw().map_err(text)?;
         let frame = [(self.x.start, self.y.start), (self.x.end, self.y.end)];
         chart.draw_series([Rectangle::new(frame, line(BLACK.mix(0.4), 1))]).map_err(text)?;
         Ok(chart)

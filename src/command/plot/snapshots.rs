@@ -36,7 +36,7 @@ pub(super) fn telling_times(run: &Run, (first, last): (f64, f64), count: u32) ->
 /// One small field a time, row by row.
 pub(super) fn draw(run: &Run, times: &[f64]) -> Picture {
     let view = View::of(run);
-    let cell = (WIDTH as i32, view.height(WIDTH, false) as i32 + TITLE);
+    let cell = (WIDTH as i32, view.height(WIDTH) as i32 + TITLE);
     let columns = times.len().clamp(1, COLUMNS);
     let rows = times.len().div_ceil(columns);
     picture((WIDTH * columns as u32, (rows as i32 * cell.1 + LEGEND) as u32), |area| {
@@ -47,7 +47,7 @@ pub(super) fn draw(run: &Run, times: &[f64]) -> Picture {
             let (title, field) = cell.split_vertically(TITLE);
             let name = format!("t = {} s", short((time * 10.0).round() / 10.0));
             title.draw(&Text::new(name, (WIDTH as i32 / 2, TITLE * 3 / 5), centred(14))).map_err(text)?;
-            let mut chart = view.chart(&field, false)?;
+            let mut chart = view.chart(&field)?;
             draw_reference(&mut chart, run)?;
             for (index, track) in run.robots.values().enumerate() {
                 let path = track.poses.iter().filter(|pose| pose.time >= 0.0 && pose.time <= time);

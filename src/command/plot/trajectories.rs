@@ -10,10 +10,10 @@ const WIDTH: u32 = 900 * UNIT;
 /// The whole field.
 pub(super) fn draw(run: &Run, span: (f64, f64), times: &[f64]) -> Picture {
     let view = View::of(run);
-    picture((WIDTH, view.height(WIDTH, true) + LEGEND as u32), |area| {
+    picture((WIDTH, view.height(WIDTH) + LEGEND as u32), |area| {
         let (top, field) = area.split_vertically(LEGEND);
         legend(&top, run.robots.keys(), notes(run))?;
-        let mut chart = view.chart(&field, true)?;
+        let mut chart = view.chart(&field)?;
         draw_reference(&mut chart, run)?;
         for (index, track) in run.robots.values().enumerate() {
             let path = track.poses.iter().filter(|pose| pose.time >= span.0).map(|pose| (pose.x, pose.y));

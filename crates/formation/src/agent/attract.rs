@@ -17,6 +17,8 @@ pub(super) struct Attracted {
     pub(super) place: Option<Vector2<f64>>,
     /// Distance from it, m.
     pub(super) deviation: f64,
+    /// Whether a remedy leads the robot: it does without its leader's attraction then, which would hold it back.
+    pub(super) led: bool,
 }
 
 impl<T: Trench> Agent<T> {
@@ -34,7 +36,7 @@ impl<T: Trench> Agent<T> {
                 Sought::Point(foot) => (Drawn::To(foot), moment.motion.at(foot.point)),
                 Sought::Tie | Sought::NoFragment => {
                     let attracting = Attracting { foot: moment.motion.at(robot), draws: false };
-                    return Attracted { attracting, foot: None, place: None, deviation: f64::INFINITY };
+                    return Attracted { attracting, foot: None, place: None, deviation: f64::INFINITY, led: false };
                 }
             },
         };
@@ -56,7 +58,8 @@ impl<T: Trench> Agent<T> {
             (Asked::Attraction, Drawn::To(foot)) => Some(foot),
             _ => None,
         };
-        Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation }
+        let led = matches!(asked, Asked::Point(_));
+        Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation, led }
     }
 
     fn seek(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: Vector2<f64>) -> Sought {

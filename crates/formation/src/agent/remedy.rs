@@ -5,7 +5,7 @@ use crate::Vector2;
 use crate::avoidance::{Guard, Watch, auxiliary_arc, auxiliary_lines, escape, way_round};
 use crate::curve::{Foot, Placed};
 use crate::hull::{Approach, Outline};
-use crate::zoning::{ObstaclePotential, Zoning};
+use crate::zoning::{ObstaclePotential, Zone, Zoning};
 
 /// What one robot remembers.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -87,6 +87,13 @@ impl Sight<'_> {
     fn teammate_gap(&self, robot: Vector2<f64>) -> f64 {
         let near = self.teammates().map(|other| (other - robot).norm()).fold(f64::INFINITY, f64::min);
         near - self.zoning.radii().rho_hat
+    }
+
+    /// Whether the leader's attraction acts: the robot may be held by it, and a guard before an obstacle, which the nearest point moves
+    /// along, is no help.
+    fn is_pulled(&self, robot: Vector2<f64>) -> bool {
+        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
+        leader.is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
     }
 
     fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
@@ -232,7 +239,9 @@ impl Remedy {
             }
             State::Led { until, carrot, way } => {
                 let there = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
-                if there || sight.time() >= *until {
+                // Another place was chosen meanwhile, or the segment has gone on.
+                let astray = (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
+                if there || astray || sight.time() >= *until {
                     *self = Self::default();
                 } else {
                     sight.lead(robot, carrot, way);
@@ -276,7 +285,8 @@ impl Remedy {
         if self.watch.is_caught(settings, sight.time(), robot, deviation, repelled || crowded) {
             let seen = sight.seen_by(index, robot);
             let guard = || guard(&sight.moment.segment, drawn, &outline, seen, settings.radius);
-            self.state = match Some(()).filter(|()| repelled && !crowded).and_then(|()| guard()) {
+            let guarded = repelled && !crowded && !sight.is_pulled(robot);
+            self.state = match Some(()).filter(|()| guarded).and_then(|()| guard()) {
                 Some(guard) => {
                     let sunk = guard.protrusion(&outline, seen).max(0.0);
                     State::Guarded { obstacle: obstacle.id, guard, sunk }

@@ -34,7 +34,7 @@ pub fn way_round(
     (size, aside): (f64, f64),
     is_free: impl Fn(Vector2<f64>) -> bool,
 ) -> Option<Vec<Vector2<f64>>> {
-    let grid = Grid::around(&[target], robot, size, aside);
+    let grid = Grid::around(&[robot, target], robot, size, aside);
     let cells = grid.search(&is_free, |point| (point - target).norm() <= grid.size)?;
     let mut way = straightened(robot, &cells, &grid, &is_free);
     way.push(target);
@@ -77,7 +77,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// Around `points` and the robot, with `margin` (m) about the points; cells of `size` (m), larger if they would be too many.
+    /// Around `points` and the robot, which is inside, with `margin` (m) about the points; cells of `size` (m), larger if they would be too many.
     fn around(points: &[Vector2<f64>], robot: Vector2<f64>, size: f64, margin: f64) -> Self {
         let margin = Vector2::repeat(margin);
         let low = points.iter().fold(robot, |low, point| low.inf(&(point - margin)));
@@ -137,5 +137,26 @@ impl Grid {
         }
         way.reverse();
         way
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The way out begins behind the robot: a pocket whose mouth is on the side away from the target.
+    #[test]
+    fn a_way_may_begin_away_from_the_target() {
+        let (robot, target) = (Vector2::zeros(), Vector2::new(3.0, 1.0));
+        let is_free = |point: Vector2<f64>| {
+            let in_front = (0.5..1.0).contains(&point.x) && point.y.abs() < 1.5;
+            let beside = (-0.8..1.0).contains(&point.x) && (0.5..1.5).contains(&point.y.abs());
+            !(in_front || beside)
+        };
+        let way = way_round(robot, target, (0.1, 2.0), is_free).unwrap();
+        assert!(way[0].x < -0.8 && way.last() == Some(&target), "{way:?}");
+        let corners = core::iter::once(&robot).chain(&way);
+        assert!(corners.zip(&way).all(|(from, to)| is_clear(*from, *to, 0.01, &is_free)), "{way:?}");
+        assert_eq!(way_round(robot, target, (0.1, 0.5), is_free), None, "no room to go round");
     }
 }

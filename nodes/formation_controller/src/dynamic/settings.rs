@@ -5,9 +5,11 @@ use super::potentials::{self, potential, zoning};
 use super::remedies::{self, remedies};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_formation::agent::{Action, AgentSettings, Encroaching};
-use trench_formation::laws::{Capability, NearestAttraction};
+use trench_formation::laws::{Capability, NearestAttraction, QueueFollowing};
 use trench_formation::seek::{LeaderRule, SeekSettings};
+use trench_formation::stability::{Coupling, InputToState, input_to_state};
 use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_formation::zoning::{ObstaclePotential, Zoning};
 use trench_plan::{TRENCH_RANGE, TRENCH_SHAPES, trench_from_parameters};
 
 /// A dynamic law with all it needs.
@@ -22,12 +24,17 @@ pub(crate) struct DynamicSettings {
     pub(crate) rest_speed: f64,
     /// s, for which a robot ahead that is silent is believed to go on.
     pub(crate) leader_age: f64,
+    /// a and b of (8.26) for a robot of a chain under the queue law; none under other laws.
+    pub(crate) growth: Option<InputToState>,
     /// Whether the safety filter leads the robot round what blocks its way to the point that draws it.
     pub(crate) detours: bool,
 }
 
 /// Chains with less damping than this (1/s) and none towards their leaders whip (6.5, 7.10).
 const LEAST_CHAIN_DAMPING: f64 = 2.0;
+
+/// Of A.19, as `trench check` has it.
+const THETA: f64 = 0.5;
 
 pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
     use ParameterDescriptor as P;
@@ -63,7 +70,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             "direction of attraction of (6.1) in the segment's frame; []: across the segment",
         ),
         P::bool("zoned.compensates", true, "the delta terms of (6.1), which oblique directions need"),
-        P::string("encroaching", "obstacles", "what encroaches on the segment: nothing, obstacles, robots (both)"),
+        P::string(
+            "encroaching",
+            "obstacles",
+            "what takes parts of the segment away: nothing, obstacles, robots (both), places (obstacles, and where robots ahead mean to stand)",
+        ),
         P::double("seek.room", 0.1, "m, shorter fragments do not qualify").range(0.0, 1e6),
         P::double("seek.transit_margin", 0.05, "m, by which another nearest point must be nearer").range(0.0, 1e6),
         P::double("seek.settled_distance", 0.05, "m, a leader this near to its segment has settled").range(1e-6, 1e6),
@@ -91,6 +102,7 @@ impl DynamicSettings {
         let Some(law) = DynamicLaw::named(parameters.str("law")?) else { return Ok(None) };
         let double = |name: &str| parameters.f64(name);
         let capability = Capability { speed: double("motion.speed")?, acceleration: double("motion.acceleration")? };
+        let (zoning, potential) = (zoning(parameters)?, potential(parameters)?);
         let agent = AgentSettings {
             law: NearestAttraction {
                 trench: trench(law, parameters)?,
@@ -98,11 +110,11 @@ impl DynamicSettings {
                 leader_damping: double("leader_damping")?,
             },
             method: law.method(parameters)?,
-            zoning: zoning(parameters)?,
-            potential: potential(parameters)?,
+            zoning,
+            potential,
             clearance: double("obstacles.clearance")?,
             seeking: seeking(parameters)?,
-            encroaching: encroaching(parameters)?,
+            encroaching: encroaching(parameters, &zoning, &potential)?,
             remedies: remedies(parameters)?,
             limits: Some(capability),
             sidesteps: parameters.bool("remedies.sidesteps")?,
@@ -114,6 +126,7 @@ impl DynamicSettings {
             capability,
             rest_speed: double("motion.rest_speed")?,
             leader_age: double("age.leader")?,
+            growth: growth(law, parameters)?,
             detours: parameters.bool("safety.detours")?,
         }))
     }
@@ -158,6 +171,18 @@ pub(crate) fn check_damping(parameters: &Parameters, settings: &DynamicSettings)
     Err(parameters.error("damping", problem, remedy))
 }
 
+/// Of the second robot of a chain whose robots all have these gains: the first has the same a, and nobody ahead.
+fn growth(law: DynamicLaw, parameters: &Parameters) -> Result<Option<InputToState>, ConfigError> {
+    if law != DynamicLaw::Queue {
+        return Ok(None);
+    }
+    let gains = ("queue.position_gain", "queue.velocity_gain");
+    let queue = QueueFollowing { position_gain: parameters.f64(gains.0)?, velocity_gain: parameters.f64(gains.1)? };
+    let bounds = input_to_state(&[queue.model(), queue.model()], Coupling::Realisable, THETA);
+    let refuse = |problem: String| parameters.error(gains.1, problem, "write a positive gain, for example 2.0");
+    Ok(bounds.map_err(|error| refuse(error.to_string()))?.last().copied())
+}
+
 fn seeking(parameters: &Parameters) -> Result<SeekSettings, ConfigError> {
     let double = |name: &str| parameters.f64(name);
     Ok(SeekSettings {
@@ -173,11 +198,21 @@ fn seeking(parameters: &Parameters) -> Result<SeekSettings, ConfigError> {
     })
 }
 
-fn encroaching(parameters: &Parameters) -> Result<Encroaching, ConfigError> {
+fn encroaching(
+    parameters: &Parameters,
+    zoning: &Zoning,
+    potential: &ObstaclePotential,
+) -> Result<Encroaching, ConfigError> {
     match parameters.str("encroaching")? {
         "nothing" => Ok(Encroaching::Nothing),
         "obstacles" => Ok(Encroaching::Obstacles),
         "robots" => Ok(Encroaching::ObstaclesAndRobots(parameters.f64("body.radius")?)),
-        _ => Err(parameters.error("encroaching", "is nothing that encroaches", "write nothing, obstacles or robots")),
+        // With the obstacles' cut about it a place takes all of its zone 2.
+        "places" => Ok(Encroaching::ObstaclesAndPlaces((zoning.radii().rho_hat - potential.cut()).max(0.0))),
+        _ => Err(parameters.error(
+            "encroaching",
+            "is nothing that encroaches",
+            "write nothing, obstacles, robots or places",
+        )),
     }
 }

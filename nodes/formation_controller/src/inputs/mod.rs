@@ -106,6 +106,12 @@ impl Inputs {
         members.iter().find(|member| member.robot == robot).map(|member| member.queue)
     }
 
+    /// How many robots of its chain come behind `member`.
+    pub(crate) fn members_behind(&self, member: &Member) -> usize {
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        members.filter(|other| other.queue == member.queue && other.rank > member.rank).count()
+    }
+
     /// Those ahead of `member` in its chain, its leader last.
     pub(crate) fn members_ahead(&self, member: &Member) -> impl Iterator<Item = &Member> {
         let (queue, rank) = (member.queue, member.rank);

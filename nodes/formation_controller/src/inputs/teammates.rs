@@ -2,8 +2,10 @@
 
 use super::{Heard, INTERVAL, Inputs, stamps::timely, vector};
 use crate::refusal::Refusal;
+use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 use trench_core::{RosTime, Steady, Times};
+use trench_formation::Vector2;
 use trench_formation::agent::Leader;
 use trench_formation::kinematics::PointState;
 use trench_msgs::msg::{Assignment, LeaderState, Member};
@@ -24,6 +26,17 @@ pub(crate) struct Ahead {
     pub(crate) leader: Leader,
     /// Its Lyapunov function, m^2/s^2.
     pub(crate) lyapunov: f64,
+    /// The place that it has chosen, m, frame of the formation; none where it speaks of another formation.
+    place: Option<Vector2<f64>>,
+    /// M of (8.26); infinite where nothing bounds its error.
+    pub(crate) error_bound: f64,
+}
+
+impl Ahead {
+    /// The place that it has chosen, or where it is, m, map.
+    pub(crate) fn place_in(&self, map_from_segment: Isometry2<f64>) -> Vector2<f64> {
+        self.place.map_or(self.leader.state.position, |place| map_from_segment.transform_point(&place.into()).coords)
+    }
 }
 
 impl Inputs {
@@ -32,8 +45,10 @@ impl Inputs {
     /// # Errors
     /// Why it does not count.
     pub(crate) fn take_other(&mut self, at: Times, name: &str, message: LeaderState) -> Result<(), Refusal> {
-        let numbers = [&message.point, &message.point_velocity].map(|point| point.x + point.y);
-        if !(numbers[0] + numbers[1] + message.goal_distance + message.lyapunov).is_finite() {
+        let points = [&message.point, &message.point_velocity, &message.place];
+        let sum: f64 = points.iter().map(|point| point.x + point.y).sum();
+        // A bound may be infinite.
+        if !(sum + message.goal_distance + message.lyapunov).is_finite() || message.error_bound.is_nan() {
             return Err(Refusal::NotFinite);
         }
         let before = self.others.said.get(name).map(|before| RosTime::from(&before.message.header.stamp));
@@ -74,8 +89,11 @@ impl Inputs {
         let elapsed = time.seconds_since(stamp).clamp(0.0, age_limit + INTERVAL);
         let velocity = vector(&said.point_velocity);
         let state = PointState { position: vector(&said.point) + elapsed * velocity, velocity };
-        let deviation = if of_ours(&heard) { said.goal_distance } else { f64::INFINITY };
-        Some(Ahead { leader: Leader { state, deviation }, lyapunov: said.lyapunov })
+        let ours = of_ours(&heard);
+        let or_infinite = |number: f64| if ours { number } else { f64::INFINITY };
+        let leader = Leader { state, deviation: or_infinite(said.goal_distance) };
+        let place = ours.then(|| vector(&said.place));
+        Some(Ahead { leader, lyapunov: said.lyapunov, place, error_bound: or_infinite(said.error_bound) })
     }
 }
 
@@ -116,6 +134,7 @@ mod tests {
         let mut state = LeaderState { epoch, goal_distance: 0.25, ..Default::default() };
         state.header.stamp = RosTime(0).plus_seconds(stamp).into();
         state.point_velocity = Point2 { x: 0.5, y: 0.0 };
+        state.place = Point2 { x: 2.0, y: 0.0 };
         state
     }
 
@@ -127,12 +146,18 @@ mod tests {
         inputs.teammate("r", (at(seconds), at(seconds).ros), 0.4).map(|ahead| ahead.leader)
     }
 
+    fn place(inputs: &Inputs, seconds: f64) -> Vector2<f64> {
+        let ahead = inputs.teammate("r", (at(seconds), at(seconds).ros), 0.4).unwrap();
+        ahead.place_in(Isometry2::translation(0.0, 3.0))
+    }
+
     #[test]
     fn it_goes_on_for_a_bounded_time() {
         let mut inputs = inputs(4);
         inputs.take_other(at(1.0), "r", state(1.0, 4)).unwrap();
         assert_eq!(ahead(&inputs, 1.2).unwrap().state.position.x, 0.1);
         assert_eq!(ahead(&inputs, 1.2).unwrap().deviation, 0.25);
+        assert_eq!(place(&inputs, 1.2), Vector2::new(2.0, 3.0), "carried by the formation's frame");
         assert!(ahead(&inputs, 1.5).is_none());
     }
 
@@ -150,6 +175,7 @@ mod tests {
         inputs.take_other(at(1.0), "r", state(1.0, 4)).unwrap();
         inputs.assignment = Some(Assignment { epoch: 5, ..Default::default() });
         assert_eq!(ahead(&inputs, 1.0).unwrap().deviation, f64::INFINITY);
+        assert_eq!(place(&inputs, 1.0).x, 0.0, "where it is");
         // Who still follows the old one no longer counts.
         assert!(inputs.take_other(at(1.1), "r", state(1.1, 4)).is_err());
         assert!(ahead(&inputs, 1.45).is_none());

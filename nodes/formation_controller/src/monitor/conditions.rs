@@ -74,6 +74,7 @@ impl Tick {
         let watched = wanted.watched?;
         let violation = self.violation(command);
         let equation = self.equation();
+        let (error, error_bound) = wanted.error.unwrap_or((0.0, f64::INFINITY));
         let robot = &self.settings.robot;
         let text = |violation: &Violation| format!("{robot}: {}: {violation}", violation.equation(equation));
         let message = Stability {
@@ -85,6 +86,8 @@ impl Tick {
             rate: watched.rate,
             sign: balanced.sign,
             bound: balanced.bound,
+            error,
+            error_bound,
             term: balanced.term.name().to_owned(),
             holds: violation.is_none(),
             violation: violation.as_ref().map(text).unwrap_or_default(),

@@ -3,10 +3,12 @@
 mod conditions;
 mod energy;
 mod kinematic;
+mod recursion;
 
 pub(crate) use conditions::Violation;
 pub(crate) use energy::{Driving, Expected, News};
 pub(crate) use kinematic::watched;
+pub(crate) use recursion::Recursion;
 
 use crate::dynamic::DynamicLaw;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};

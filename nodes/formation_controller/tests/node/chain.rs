@@ -47,6 +47,40 @@ fn follow(bench: &mut Bench, ticks: u32, leader: Option<f64>) -> f64 {
     fastest
 }
 
+/// With `encroaching: places` a follower keeps out of the place that its leader has chosen before the leader is there.
+#[test]
+fn a_follower_leaves_its_leader_the_place_that_it_has_chosen() {
+    let chosen = |encroaching: &str| {
+        let core = make(&[("team", "[robot1, robot2]"), ("law", "chain"), ("encroaching", encroaching)]).unwrap();
+        let mut bench = Bench::of(core);
+        formation(&mut bench);
+        let mut places = Vec::new();
+        for _ in 0..10 {
+            bench.running();
+            let mut state = leader_at(&bench, 1.9, 4);
+            // Beside the robot, which is at 1.0 and steers a point 0.05 m ahead of it; its zone 2 reaches 0.26 m.
+            state.place = Point2 { x: 1.1, y: 0.9 };
+            bench.send("/robot2/leader_state", &state);
+            bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+            bench.seconds += PERIOD;
+            let said: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+            places.push(said.place.x);
+        }
+        places[places.len() - 1]
+    };
+    assert!((chosen("places") - (1.1 - 0.26)).abs() < 1e-6, "{}", chosen("places"));
+    assert!((chosen("robots") - 1.05).abs() < 0.01, "who is not there yet takes nothing: {}", chosen("robots"));
+}
+
+#[test]
+fn a_robot_that_rests_says_that_its_place_is_where_it_is() {
+    let mut bench = follower();
+    bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+    let said: LeaderState = bench.out.last(bench.port("/robot1/leader_state")).unwrap();
+    assert!((said.place.x - 1.05).abs() < 1e-9 && (said.place.y - 0.9).abs() < 1e-9, "{said:?}");
+    assert_eq!(said.error_bound, f64::INFINITY, "nothing bounds the errors of law (7.13)");
+}
+
 #[test]
 fn a_follower_that_hears_nobody_goes_along_the_segment_until_it_does() {
     let mut bench = follower();

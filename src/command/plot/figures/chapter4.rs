@@ -1,5 +1,6 @@
 //! Figures 4.1 to 4.8, which need no run.
 
+use super::super::axes::short;
 use super::super::style::{Picture, REFERENCE, colour};
 use super::diagram::Diagram;
 use super::{SMALL, framed};
@@ -44,7 +45,7 @@ pub(super) fn curvature_trends(figure: &Figure, law: TwoGainLaw) -> Picture {
 pub(super) fn solutions(figure: &Figure, critical: f64) -> Picture {
     let side = |(index, share): (usize, f64)| {
         let ratio = share * critical;
-        curve(&format!("k = {ratio:.3}"), colour(index), move |phi| -ratio * (2.0 * phi).sin())
+        curve(&format!("k = {}", short(ratio)), colour(index), move |phi| -ratio * (2.0 * phi).sin())
     };
     let mut curves = vec![curve("phi", REFERENCE, |phi| phi)];
     curves.extend([0.5, 1.0, 2.0].into_iter().enumerate().map(side));

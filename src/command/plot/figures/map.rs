@@ -17,6 +17,9 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [58 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 12 * UNIT;
+/// The square at the end of a path, about it, and a robot's name, from it, units.
+const END: [(i32, i32); 2] = [(-3 * UNIT as i32, -3 * UNIT as i32), (3 * UNIT as i32, 3 * UNIT as i32)];
+const NAME: (i32, i32) = (3 * UNIT as i32, -14 * UNIT as i32);
 const OBSTACLE: RGBColor = RGBColor(150, 60, 40);
 
 /// The part of the map that is shown.
@@ -89,7 +92,8 @@ impl Field {
             chart.draw_series(dashes).map_err(text)?;
         }
         self.obstacles(&mut chart, scenario)?;
-        for robot in &selection.robots {
+        // Those named first are drawn last: where paths are the same, they are seen.
+        for robot in selection.robots.iter().rev() {
             if matches!(scenario.task, Task::GoalTracking(_)) && !bodies {
                 for part in clip(&goals(robot, until), window) {
                     chart.draw_series(LineSeries::new(part, line(REFERENCE, 1))).map_err(text)?;
@@ -108,12 +112,18 @@ impl Field {
         let inside = |point: &(f64, f64)| point.0 >= left && point.0 <= right && point.1 >= bottom && point.1 <= top;
         let cross = team_goal(scenario).filter(inside);
         chart.draw_series(cross.map(|point| Cross::new(point, 6 * UNIT, line(BLACK, 2)))).map_err(text)?;
-        for robot in selection.robots.iter() {
+        for robot in selection.robots.iter().rev() {
+            let last = path(robot, 0.0, until).pop().filter(|point| !bodies && inside(point));
+            let end = |point| EmptyElement::at(point) + Rectangle::new(END, robot.colour.filled());
+            chart.draw_series(last.map(end)).map_err(text)?;
             let at = if bodies { until } else { 0.0 };
             let Some(pose) = robot.track.pose_at(at).filter(|pose| inside(&(pose.x, pose.y))) else { continue };
             let size = if bodies { 4 } else { 3 };
             chart.draw_series([Circle::new((pose.x, pose.y), size * UNIT, robot.colour.filled())]).map_err(text)?;
             if bodies {
+                let beside =
+                    |name: &String| EmptyElement::at((pose.x, pose.y)) + Text::new(name.clone(), NAME, font(9));
+                chart.draw_series(robot.name.as_ref().map(beside)).map_err(text)?;
                 let reach = 0.03 * (right - left);
                 let tip = (pose.x + reach * pose.theta.cos(), pose.y + reach * pose.theta.sin());
                 let moves = pose.v.abs() > 1e-3;

@@ -90,14 +90,17 @@ fn framed(
 /// What signs on maps mean: those alone that this scenario has.
 fn field_notes(scenario: &Scenario, bodies: bool) -> &'static str {
     match (&scenario.task, bodies) {
-        (Task::Regulating(_), _) => "● start,  × goal",
+        (Task::Regulating(_), _) => "● start,  ■ end,  × goal",
         (Task::GoalTracking(_), true) => "● robot with its heading,  ○ its goal point",
-        (Task::GoalTracking(_), false) => "● start;  grey: path of the goal point",
-        (Task::Nearest(chain, _), _) if !chain.obstacles.is_empty() => {
-            "- - - segment;  brown: obstacles, dashed where their repulsion begins and around combined hulls;  × goal"
+        (Task::GoalTracking(_), false) => "● start,  ■ end;  grey: path of the goal point",
+        (Task::Nearest(chain, _), true) if !chain.obstacles.is_empty() => {
+            "● robot,  - - - segment,  × goal of r1;  brown: obstacles, dashed where repulsion begins and around combined hulls"
+        }
+        (Task::Nearest(chain, _), false) if !chain.obstacles.is_empty() => {
+            "● start,  ■ end,  - - - segment,  × goal;  brown: obstacles, dashed where repulsion begins and around combined hulls"
         }
         (_, true) => "● robot with its heading,  - - - segment,  × goal of r1",
-        (_, false) => "● start,  - - - segment,  × goal of r1",
+        (_, false) => "● start,  ■ end,  - - - segment,  × goal of r1",
     }
 }
 

@@ -9,6 +9,8 @@ use trench_scenario::{Figure, Scenario, Seat};
 /// A robot of a figure.
 pub(super) struct Shown<'a> {
     pub(super) track: &'a Track,
+    /// Beside the robot, where colours alone hardly tell so many apart.
+    pub(super) name: Option<String>,
     pub(super) colour: RGBColor,
     /// The robot it follows in its chain.
     pub(super) leader: Option<&'a Track>,
@@ -47,7 +49,8 @@ pub(super) fn select<'a>(figure: &Figure, scenario: &Scenario, run: &'a Run) -> 
             legend.push((label, colour));
         }
         let leader = seat.leader.and_then(|leader| run.robots.get(&seats.get(leader)?.name));
-        robots.push(Shown { track, colour, leader });
+        let name = (!by_case && count > COLOURS.len()).then(|| format!("r{}", seat.rank));
+        robots.push(Shown { track, name, colour, leader });
     }
     Selection { robots, legend }
 }
