@@ -129,7 +129,7 @@ impl Measures {
                 }
             }
         }
-        if let Some((real, _)) = simulation.obstacles() {
+        if let Some(real) = simulation.obstacles() {
             for gaps in &mut self.gaps {
                 gaps.resize(real.len(), (0, f64::INFINITY));
             }

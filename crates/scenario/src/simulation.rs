@@ -191,11 +191,20 @@ impl Simulation {
         Ok(())
     }
 
-    /// Real obstacles and apparent ones, now.
+    /// Real obstacles as the robots know them and apparent ones, now.
     #[must_use]
-    pub fn obstacles(&self) -> Option<(&[Obstacle], &[ApparentObstacle])> {
+    pub fn known_obstacles(&self) -> Option<(&[Obstacle], &[ApparentObstacle])> {
         match &self.running {
-            Running::Nearest(chain, _) => Some((chain.real_obstacles(), chain.obstacles())),
+            Running::Nearest(chain, _) => Some((chain.known_obstacles(), chain.obstacles())),
+            _ => None,
+        }
+    }
+
+    /// Real obstacles, now.
+    #[must_use]
+    pub fn obstacles(&self) -> Option<&[Obstacle]> {
+        match &self.running {
+            Running::Nearest(chain, _) => Some(chain.real_obstacles()),
             _ => None,
         }
     }

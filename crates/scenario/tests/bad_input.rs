@@ -94,6 +94,9 @@ fn obstacles() {
     check("7.11.yaml", "{pole: 0.0, cut: 1.0", "{pole: 2.0, cut: 1.0", &["obstacle_potential.cut", "farther out"]);
     let euler = "method: semi_implicit_euler";
     check("7.11.yaml", euler, &format!("{euler}\nsafety: {{body_radius: 0.1}}"), &["safety", "give limits"]);
+    check("7.11.yaml", euler, &format!("{euler}\nsight: {{range: 0.0, piece: 0.5}}"), &["sight.range", "not positive"]);
+    let sight = "sight: {range: 4.0, piece: 0.5}";
+    check("7.14.yaml", euler, &format!("{euler}\n{sight}"), &["sight", "obstacles that move", "take the velocities"]);
     check(
         "7.11.yaml",
         euler,

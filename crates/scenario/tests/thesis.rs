@@ -169,6 +169,39 @@ fn corridor_of_9_1() {
     assert!(case.robots.iter().all(|robot| robot.position[0] > 30.0) && case.in_zone_1 == 0.0, "{case:?}");
 }
 
+/// Fig. 7.14: what two obstacles are combined to, once one has come near, holds the robot; it gets out and to the segment (7.7).
+#[test]
+fn enclosed_by_moving_obstacles() {
+    let scenario = scenario("7.14.yaml");
+    let mut simulation = Simulation::new(&scenario).unwrap();
+    let (mut samples, mut enclosed) = (Vec::new(), 0);
+    let steps = (scenario.timing.duration / scenario.timing.step).round() as u64;
+    for _ in 0..steps {
+        simulation.step().unwrap();
+        simulation.sample(false, &mut samples).unwrap();
+        let (_, apparent) = simulation.known_obstacles().unwrap();
+        let holds = |outline: trench_formation::hull::Outline<'_>| outline.approach(samples[0].position).gap < 0.0;
+        enclosed += u32::from(apparent.iter().any(|obstacle| holds(obstacle.shape.outline())));
+    }
+    assert!(enclosed > 1000, "{enclosed} ms");
+    let case = run("7.14.yaml");
+    assert!(case.conforms_after.is_some_and(|time| time < 50.0), "{case:?}");
+    assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.9), "{case:?}");
+}
+
+/// Remark 7.4.1: boundaries are known as far as they were seen; all come to the segment and to no wall.
+#[test]
+fn partial_boundaries_of_7_6() {
+    let scenario = scenario("7.6_partial_boundaries.yaml");
+    let simulation = Simulation::new(&scenario).unwrap();
+    let (known, apparent) = simulation.known_obstacles().unwrap();
+    assert!(known.is_empty() && apparent.is_empty(), "nobody has seen anything");
+    let case = run("7.6_partial_boundaries.yaml");
+    assert!(case.conforms_after.is_some(), "{case:?}");
+    assert!(case.obstacles.len() == 6 && case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.7), "{case:?}");
+    assert!(case.in_zone_1 == 0.0 && case.closest_pair.is_some_and(|apart| apart > 1.5), "{case:?}");
+}
+
 #[test]
 fn the_same_numbers_twice() {
     let bits = || {

@@ -4,6 +4,7 @@
 //! combined hull may come near to what neither member is near to. The fixpoint is unique, as hulls only grow, so the
 //! result depends on the set of obstacles alone.
 use super::{HullError, Shape, shape::length};
+use std::collections::BTreeMap;
 
 /// An obstacle with its name.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,12 +29,8 @@ pub struct ApparentObstacle {
 /// A hull on the way to the fixpoint.
 struct Group {
     /// Indices of members, ascending.
-    members: Vec<usize>,
+    members: Vec<u32>,
     shape: Shape,
-    low: [f64; 2],
-    high: [f64; 2],
-    /// Whether it was formed in the last round: only then can it have new neighbours.
-    fresh: bool,
 }
 
 /// Combines obstacles whose hulls are separated by strictly less than `clearance` (m); by ascending id.
@@ -61,59 +58,96 @@ pub fn combine_unless(
     if let Some(pair) = sorted.windows(2).find(|pair| pair[0].id == pair[1].id) {
         return Err(HullError::DuplicateId(pair[0].id));
     }
-    let single = |(index, obstacle): (usize, &&Obstacle)| Group::new(vec![index], obstacle.shape.clone());
-    let mut groups: Vec<Group> = sorted.iter().enumerate().map(single).collect();
-    while merge_once(&mut groups, &sorted, clearance, &adjoin) {}
-    groups.sort_by_key(|group| group.members[0]);
+    let single = |(index, obstacle): (u32, &&Obstacle)| Group { members: vec![index], shape: obstacle.shape.clone() };
+    let mut groups: Vec<Group> = (0..).zip(&sorted).map(single).collect();
+    let mut slots: Vec<Slot> = (0..).zip(&groups).map(|(index, group)| Slot::of(index, group)).collect();
+    sort(&mut slots);
+    while merge_once(&mut groups, &mut slots, &sorted, clearance, &adjoin) {}
+    let mut lives = vec![false; groups.len()];
+    slots.iter().for_each(|slot| lives[slot.group] = true);
     let named = |group: Group| {
-        let members: Vec<u32> = group.members.iter().map(|index| sorted[*index].id).collect();
+        let members: Vec<u32> = group.members.into_iter().map(|index| sorted[index as usize].id).collect();
         ApparentObstacle { id: members[0], members, shape: group.shape }
     };
-    Ok(groups.into_iter().map(named).collect())
+    let living = groups.into_iter().zip(lives).filter(|(_, lives)| *lives);
+    let mut combined: Vec<ApparentObstacle> = living.map(|(group, _)| named(group)).collect();
+    combined.sort_unstable_by_key(|obstacle| obstacle.id);
+    Ok(combined)
 }
 
-/// Box of a group: apart from the groups, so that the sweep over all pairs reads little memory.
+/// Box of a group that is not part of another: apart from the groups, so that the sweep over all pairs reads little memory.
 struct Slot {
     low: [f64; 2],
     high: [f64; 2],
+    /// Whether the group was formed in the last round: only then can it have new neighbours.
     fresh: bool,
+    group: usize,
+}
+
+/// From left to right.
+fn sort(slots: &mut [Slot]) {
+    slots.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]).then(a.group.cmp(&b.group)));
 }
 
 /// Joins all groups that are near each other now; whether there were any.
 fn merge_once(
     groups: &mut Vec<Group>,
+    slots: &mut Vec<Slot>,
     obstacles: &[&Obstacle],
     clearance: f64,
     adjoin: &impl Fn(u32, u32) -> bool,
 ) -> bool {
-    groups.sort_unstable_by(|a, b| a.low[0].total_cmp(&b.low[0]).then(a.members[0].cmp(&b.members[0])));
+    let widest = slots.iter().map(|slot| slot.high[0] - slot.low[0]).fold(0.0, f64::max);
     let mut parents: Vec<usize> = (0..groups.len()).collect();
-    let slots: Vec<Slot> =
-        groups.iter().map(|group| Slot { low: group.low, high: group.high, fresh: group.fresh }).collect();
     let mut merged = false;
-    for (i, slot) in slots.iter().enumerate() {
-        for (other, j) in slots[i + 1..].iter().zip(i + 1..) {
-            if other.low[0] - slot.high[0] >= clearance {
-                break;
-            }
-            let apart = (slot.low[1] - other.high[1]).max(other.low[1] - slot.high[1]);
-            if apart >= clearance || !(slot.fresh || other.fresh) {
-                continue;
-            }
-            let (first, second) = (root(&mut parents, i), root(&mut parents, j));
-            if first != second
-                && groups[i].is_nearer_than(&groups[j], clearance)
-                && !only_adjoin(&groups[i], &groups[j], obstacles, clearance, adjoin)
-            {
-                parents[first.max(second)] = first.min(second);
-                merged = true;
-            }
+    let mut meet = |a: &Slot, b: &Slot| {
+        let apart = (a.low[1] - b.high[1]).max(b.low[1] - a.high[1]);
+        if apart >= clearance || (a.low[0] - b.high[0]).max(b.low[0] - a.high[0]) >= clearance {
+            return;
+        }
+        let (first, second) = (root(&mut parents, a.group), root(&mut parents, b.group));
+        let (one, other) = (&groups[a.group], &groups[b.group]);
+        if first != second
+            && one.is_nearer_than(other, clearance)
+            && !only_adjoin(one, other, obstacles, clearance, adjoin)
+        {
+            parents[first.max(second)] = first.min(second);
+            merged = true;
+        }
+    };
+    for (i, slot) in slots.iter().enumerate().filter(|(_, slot)| slot.fresh) {
+        for other in slots[i + 1..].iter().take_while(|other| other.low[0] - slot.high[0] < clearance) {
+            meet(slot, other);
+        }
+        // Those that are fresh have looked ahead themselves.
+        let before = slots[..i].iter().rev().take_while(|other| slot.low[0] - other.low[0] - widest < clearance);
+        for other in before.filter(|other| !other.fresh) {
+            meet(slot, other);
         }
     }
     if merged {
-        join(groups, &mut parents, obstacles);
+        join(groups, slots, &mut parents, obstacles);
     }
     merged
+}
+
+/// Puts unions in the places of the groups of each root.
+fn join(groups: &mut Vec<Group>, slots: &mut Vec<Slot>, parents: &mut [usize], obstacles: &[&Obstacle]) {
+    let mut unions: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for slot in slots.iter_mut() {
+        slot.fresh = false;
+        let root = root(parents, slot.group);
+        if root != slot.group {
+            unions.entry(root).or_insert_with(|| vec![root]).push(slot.group);
+        }
+    }
+    slots.retain(|slot| parents[slot.group] == slot.group && !unions.contains_key(&slot.group));
+    for parts in unions.into_values() {
+        let union = Group::union(&parts.iter().map(|part| &groups[*part]).collect::<Vec<_>>(), obstacles);
+        slots.push(Slot::of(groups.len(), &union));
+        groups.push(union);
+    }
+    sort(slots);
 }
 
 /// Whether two groups are near each other by members that adjoin, and by no others.
@@ -124,7 +158,8 @@ fn only_adjoin(
     clearance: f64,
     adjoin: &impl Fn(u32, u32) -> bool,
 ) -> bool {
-    let pairs = a.members.iter().flat_map(|i| b.members.iter().map(|j| (obstacles[*i], obstacles[*j])));
+    let pairs =
+        a.members.iter().flat_map(|i| b.members.iter().map(|j| (obstacles[*i as usize], obstacles[*j as usize])));
     let mut any = false;
     for (one, other) in pairs {
         if adjoin(one.id, other.id) || adjoin(other.id, one.id) {
@@ -136,22 +171,6 @@ fn only_adjoin(
     any
 }
 
-/// Replaces the groups of each root by their union.
-fn join(groups: &mut Vec<Group>, parents: &mut [usize], obstacles: &[&Obstacle]) {
-    let mut unions: Vec<Vec<Group>> = Vec::new();
-    unions.resize_with(groups.len(), Vec::new);
-    for (index, group) in core::mem::take(groups).into_iter().enumerate() {
-        unions[root(parents, index)].push(group);
-    }
-    for mut parts in unions {
-        match parts.len() {
-            0 => {}
-            1 => groups.extend(parts.pop().map(|group| Group { fresh: false, ..group })),
-            _ => groups.push(Group::union(&parts, obstacles)),
-        }
-    }
-}
-
 /// Root of a node, halving the path to it.
 fn root(parents: &mut [usize], mut node: usize) -> usize {
     while parents[node] != node {
@@ -161,8 +180,8 @@ fn root(parents: &mut [usize], mut node: usize) -> usize {
     node
 }
 
-impl Group {
-    fn new(members: Vec<usize>, shape: Shape) -> Self {
+impl Slot {
+    fn of(group: usize, Group { shape, .. }: &Group) -> Self {
         let outline = shape.outline();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for point in outline.points {
@@ -171,21 +190,23 @@ impl Group {
                 high[axis] = high[axis].max(point[axis] + outline.radius);
             }
         }
-        Self { members, low, high, shape, fresh: true }
+        Self { low, high, fresh: true, group }
     }
+}
 
+impl Group {
     /// The hull of hulls, which is that of their members if all are rounded off alike (then far fewer corners count).
-    fn union(parts: &[Self], obstacles: &[&Obstacle]) -> Self {
-        let mut members: Vec<usize> = parts.iter().flat_map(|part| part.members.iter().copied()).collect();
+    fn union(parts: &[&Self], obstacles: &[&Obstacle]) -> Self {
+        let mut members: Vec<u32> = parts.iter().flat_map(|part| part.members.iter().copied()).collect();
         members.sort_unstable();
-        let radius = obstacles[members[0]].shape.outline().radius;
-        let alike = members.iter().all(|member| obstacles[*member].shape.outline().radius == radius);
+        let radius = obstacles[members[0] as usize].shape.outline().radius;
+        let alike = members.iter().all(|member| obstacles[*member as usize].shape.outline().radius == radius);
         let shape = if alike {
             Shape::around(parts.iter().map(|part| &part.shape))
         } else {
-            Shape::around(members.iter().map(|member| &obstacles[*member].shape))
+            Shape::around(members.iter().map(|member| &obstacles[*member as usize].shape))
         };
-        Self::new(members, shape)
+        Self { members, shape }
     }
 
     fn is_nearer_than(&self, other: &Self, clearance: f64) -> bool {

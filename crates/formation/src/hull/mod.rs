@@ -6,6 +6,7 @@ mod area;
 mod combine;
 mod convex;
 mod error;
+mod nearer;
 mod outline;
 mod shape;
 

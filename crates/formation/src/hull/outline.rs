@@ -1,4 +1,5 @@
 //! Distances of convex polygons that are rounded off by a radius.
+use super::nearer::is_nearer;
 use core::f64::consts::TAU;
 use nalgebra::Vector2;
 
@@ -75,25 +76,11 @@ impl Outline<'_> {
         self.core_distance(other) - self.radius - other.radius
     }
 
-    /// Whether the gap is strictly less than `limit` (m). Far cheaper than [`Self::gap`] for most pairs: a line across
-    /// one of two likely directions separates them, or two corners are near enough.
+    /// Whether the gap is strictly less than `limit` (m). Far cheaper than [`Self::gap`].
     pub fn is_nearer_than(&self, other: &Outline<'_>, limit: f64) -> bool {
         let limit = limit + self.radius + other.radius;
-        if self.separation(other, other.middle() - self.middle()) >= limit {
-            return false;
-        }
-        let pairs = self.points.iter().flat_map(|point| other.points.iter().map(move |corner| corner - point));
-        let between = pairs.fold(Vector2::repeat(f64::INFINITY), |best, arm| {
-            if arm.norm_squared() < best.norm_squared() { arm } else { best }
-        });
-        between.norm() < limit || (self.separation(other, between) < limit && self.core_distance(other) < limit)
-    }
-
-    /// Space between the polygons along `direction`, a lower bound of their distance; negative if they overlap there.
-    fn separation(&self, other: &Outline<'_>, direction: Vector2<f64>) -> f64 {
-        let axis = direction.try_normalize(0.0).unwrap_or_else(Vector2::x);
-        let reach = self.points.iter().map(|point| point.dot(&axis)).fold(f64::NEG_INFINITY, f64::max);
-        other.points.iter().map(|point| point.dot(&axis)).fold(f64::INFINITY, f64::min) - reach
+        let arm = other.middle() - self.middle();
+        is_nearer(self.points, other.points, arm, limit).unwrap_or_else(|| self.core_distance(other) < limit)
     }
 
     /// Centre and radius of a disc that holds it, m.
@@ -127,7 +114,7 @@ impl Outline<'_> {
     }
 
     /// Edges in order; a single point is an edge of length zero.
-    pub(super) fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (Vector2<f64>, Vector2<f64>)> + '_ {
         let count = if self.points.len() == 2 { 1 } else { self.points.len() };
         (0..count).map(|i| (self.points[i], self.points[(i + 1) % self.points.len()]))
     }

@@ -1,4 +1,5 @@
 //! Stepping a chain.
+use super::sight::Knowledge;
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
 use super::{ChainScenario, ScenarioError};
@@ -18,10 +19,12 @@ const LEAST_SHARE: usize = 128;
 #[derive(Debug, Clone)]
 pub struct ChainSimulation<T> {
     pub(super) scenario: ChainScenario<T>,
-    /// Real and apparent obstacles at the last tick, velocities of the apparent ones.
+    /// Real obstacles as they are known and apparent ones at the last tick, velocities of the apparent ones.
     pub(super) real: Vec<Obstacle>,
     pub(super) obstacles: Vec<ApparentObstacle>,
     velocities: Vec<Vector2<f64>>,
+    /// What the team has seen of obstacles, where it does not know all of them.
+    pub(super) knowledge: Option<Knowledge>,
     pub(super) robots: Vec<PointState>,
     /// Robots at the last tick, as others see them.
     seen: Vec<PointState>,
@@ -56,6 +59,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             real: scenario.obstacles.clone(),
             velocities: scenario.velocities_of(&obstacles),
             obstacles,
+            knowledge: scenario.options.sight.map(|sight| Knowledge::new(&scenario.obstacles, sight)),
             robots: scenario.robots.clone(),
             seen: scenario.robots.clone(),
             agents: vec![Agent::new(scenario.agent()); count],
@@ -68,6 +72,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             steps: 0,
             scenario,
         };
+        simulation.look_round()?;
         simulation.sense()?;
         Ok(simulation)
     }
@@ -140,12 +145,25 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.obstacles = combine(&self.real, self.scenario.clearance)?;
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
+        let found = self.look_round()?;
         self.vicinity.look(&self.scenario, &self.seen, &self.real);
         let encroach = self.scenario.encroaching.robot_radius().is_some();
-        if moves || encroach || !self.scenario.carriage.is_parked() {
+        if moves || found || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;
         }
         Ok(())
+    }
+
+    /// What robots see of obstacles counts from now on; whether that is more than before.
+    fn look_round(&mut self) -> Result<bool, ScenarioError> {
+        let Some(knowledge) = &mut self.knowledge else { return Ok(false) };
+        let found = knowledge.look(&self.seen)?;
+        if found || self.steps == 0 {
+            self.real = knowledge.known().to_vec();
+            self.obstacles = combine(&self.real, self.scenario.clearance)?;
+            self.velocities = self.scenario.velocities_of(&self.obstacles);
+        }
+        Ok(found)
     }
 
     fn sense(&mut self) -> Result<(), ScenarioError> {

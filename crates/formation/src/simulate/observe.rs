@@ -29,6 +29,12 @@ impl<T: Trench> ChainSimulation<T> {
 
     /// Obstacles as they are, at the last tick.
     pub fn real_obstacles(&self) -> &[Obstacle] {
+        // What is seen piece by piece rests.
+        if self.knowledge.is_some() { &self.scenario.obstacles } else { &self.real }
+    }
+
+    /// What robots know of them: all, or the pieces of boundaries that they have seen.
+    pub fn known_obstacles(&self) -> &[Obstacle] {
         &self.real
     }
 

@@ -1,5 +1,5 @@
 //! What is simulated.
-use super::Carriage;
+use super::{Carriage, Sight};
 use crate::Vector2;
 use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
 use crate::curve::Curve;
@@ -59,6 +59,8 @@ pub struct Options {
     pub obstacle_velocities: Vec<Vector2<f64>>,
     /// Whether the law ends in the safety filter. Without it nothing but the law keeps robots apart, as in the thesis.
     pub safety: Option<Stopping>,
+    /// How far the team sees the boundaries of obstacles, which rest; without it all are known (Remark 7.4.1).
+    pub sight: Option<Sight>,
 }
 
 /// A scenario that cannot be run.
@@ -82,6 +84,9 @@ pub enum ScenarioError {
     /// A step or tick that advances nothing.
     #[error("step is {0} s and steps_per_tick is {1}: both must be positive")]
     Step(f64, u32),
+    /// Boundaries that are seen piece by piece while their obstacle moves.
+    #[error("obstacles that move cannot be seen piece by piece: let them rest, or have all boundaries known")]
+    SightOfMoving,
     /// See [`HullError`].
     #[error(transparent)]
     Hull(#[from] HullError),
@@ -158,6 +163,9 @@ impl<T> ChainScenario<T> {
             return Err(ScenarioError::NotFinite("the velocity of an obstacle"));
         }
         self.seeking.check()?;
+        if self.options.sight.is_some() && self.moves() {
+            return Err(ScenarioError::SightOfMoving);
+        }
         for (index, robot) in self.robots.iter().enumerate() {
             if !finite(robot.position + robot.velocity) {
                 return Err(ScenarioError::RobotNotFinite(index + 1));

@@ -13,7 +13,7 @@ use trench_formation::laws::{Capability, NearestAttraction, ZonedAttraction};
 use trench_formation::safety::Stopping;
 use trench_formation::seek::{Fragments, LeaderRule, SeekSettings};
 use trench_formation::simulate::{
-    Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, ZonedChainScenario,
+    Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, Sight, ZonedChainScenario,
 };
 use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::ObstaclePotential;
@@ -94,6 +94,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
             safety: safety(map, limits)?,
             sidesteps: map.get_or("sidesteps", false)?,
             obstacle_velocities: velocities,
+            sight: map.opt_map("sight")?.map(|map| sight(&map)).transpose()?,
             ..Options::default()
         },
         step: timing.step,
@@ -111,6 +112,7 @@ fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>
             ScenarioError::StartInZoneOne(_, rank, _) | ScenarioError::StartInObstacle(rank, _) => {
                 robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
             }
+            ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
             ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
             _ => map.as_node().error(text, ""),
@@ -229,6 +231,13 @@ fn limits(map: &Map<'_>) -> Result<Capability, ConfigError> {
     let limits = Capability { speed: positive(map, "speed")?, acceleration: positive(map, "acceleration")? };
     map.finish()?;
     Ok(limits)
+}
+
+/// How far robots see.
+fn sight(map: &Map<'_>) -> Result<Sight, ConfigError> {
+    let sight = Sight { range: positive(map, "range")?, piece: positive(map, "piece")? };
+    map.finish()?;
+    Ok(sight)
 }
 
 /// The safety filter, which has to know what the robots can do.

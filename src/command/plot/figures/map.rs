@@ -9,7 +9,7 @@ use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use trench_formation::Vector2;
-use trench_formation::hull::{Outline, combine};
+use trench_formation::hull::{Obstacle, Outline, combine};
 use trench_scenario::{Scenario, Task};
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
@@ -91,7 +91,7 @@ impl Field {
             let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));
             chart.draw_series(dashes).map_err(text)?;
         }
-        self.obstacles(&mut chart, scenario)?;
+        self.obstacles(&mut chart, scenario, until)?;
         // Those named first are drawn last: where paths are the same, they are seen.
         for robot in selection.robots.iter().rev() {
             if matches!(scenario.task, Task::GoalTracking(_)) && !bodies {
@@ -139,9 +139,15 @@ impl Field {
         Ok(())
     }
 
-    /// Obstacles filled, where their repulsion begins dashed, combined hulls outlined.
-    fn obstacles(self, chart: &mut Chart<'_, '_>, scenario: &Scenario) -> Result<(), String> {
+    /// Obstacles where they are at `time` (s), where their repulsion begins dashed, combined hulls outlined.
+    fn obstacles(self, chart: &mut Chart<'_, '_>, scenario: &Scenario, time: f64) -> Result<(), String> {
         let Task::Nearest(chain, _) = &scenario.task else { return Ok(()) };
+        let velocities = chain.options.obstacle_velocities.iter().copied().chain(std::iter::repeat(Vector2::zeros()));
+        let moved = |(obstacle, velocity): (&Obstacle, Vector2<f64>)| {
+            Ok(Obstacle { id: obstacle.id, shape: obstacle.shape.moved(time * velocity).map_err(text)? })
+        };
+        let obstacles: Vec<Obstacle> =
+            chain.obstacles.iter().zip(velocities).map(moved).collect::<Result<_, String>>()?;
         let mut outline = |outline: &Outline<'_>, grown: f64, is_dashed: bool| {
             let boundary: Vec<(f64, f64)> =
                 rounded(outline.points, outline.radius + grown).into_iter().map(|point| (point.x, point.y)).collect();
@@ -157,10 +163,10 @@ impl Field {
             }
             Ok::<_, String>(())
         };
-        for obstacle in &chain.obstacles {
+        for obstacle in &obstacles {
             outline(&obstacle.shape.outline(), 0.0, false)?;
         }
-        for apparent in combine(&chain.obstacles, chain.clearance).map_err(text)? {
+        for apparent in combine(&obstacles, chain.clearance).map_err(text)? {
             outline(&apparent.shape.outline(), chain.potential.cut(), true)?;
             if apparent.members.len() > 1 {
                 outline(&apparent.shape.outline(), 0.0, true)?;

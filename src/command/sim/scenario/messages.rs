@@ -64,7 +64,7 @@ impl<'a> Publisher<'a> {
             let topic = format!("/{}/leader_state", seat.name);
             sink.publish(time, &topic, Qos::RELIABLE, &self.leader_state(&header, seat, sample));
         }
-        let (real, apparent) = simulation.obstacles().unwrap_or_default();
+        let (real, apparent) = simulation.known_obstacles().unwrap_or_default();
         if let Task::Nearest(chain, _) = &self.scenario.task {
             let obstacles = apparent.iter().map(obstacle).collect();
             let members = real.iter().map(member).collect();
