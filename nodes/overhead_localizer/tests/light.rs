@@ -224,8 +224,7 @@ fn cables_and_shoes_are_no_robots() {
         for transport in [Transport::Raw, Transport::Jpeg(70)] {
             let appearance = Appearance { background, seed: 40, gradient: 0.1, ..Appearance::default() };
             let score = score(appearance, transport, things);
-            // Where a cable touches a disc, the two are no disc.
-            assert!(score.recall() >= 0.97 && score.false_pads == 0, "{transport:?}: {score:?}");
+            assert!(score.recall() >= 0.999 && score.false_pads == 0, "{transport:?}: {score:?}");
         }
     }
 }
@@ -251,6 +250,8 @@ fn cables(image: &mut [u8], random: &mut Random) {
 fn pads_below_cables_are_found() {
     let score = score(Appearance { seed: 50, ..Appearance::default() }, Transport::Raw, cables);
     let [position, heading] = score.rms();
-    // Where two cables cross on a disc, too little of it is left.
-    assert!(score.recall() >= 0.97 && score.false_pads == 0 && position < 1e-3 && heading < 0.012, "{score:?}");
+    // Where three cables cross on a pad, too little of it is left: in few frames that may be one.
+    let missed = score.robots - score.found;
+    assert!(missed <= (0.001 * score.robots).max(1.0), "{score:?}");
+    assert!(score.false_pads == 0 && position < 1e-3 && heading < 0.01, "{score:?}");
 }

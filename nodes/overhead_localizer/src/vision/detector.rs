@@ -1,12 +1,13 @@
 //! All discs of a frame.
 
+mod complete;
+
 use super::balance::{Balance, UNIT, Weights};
 use super::blob::Tracer;
 use super::centroid;
 use super::chroma::{Classifier, Colour, ColourLimits};
 use super::faint::{self, Faint};
 use super::frame::{ChannelOrder, Frame};
-use super::partner;
 use super::rim;
 use nalgebra::Point3;
 use trench_optics::{Camera, Pad, Pixel};
@@ -63,11 +64,6 @@ const ROUND: [f64; 2] = [0.7, 1.25];
 /// Below this contrast of 510 a disc hardly stands out.
 const FAINT: i32 = 130;
 
-/// So many discs without a partner are looked at again: a frame full of colour must not take for ever.
-const MOST_PARTNERS: usize = 32;
-/// A partner has this part of the chroma that is asked of a disc without one.
-const WASHED_OUT: f64 = 0.5;
-
 /// So far a faint disc's centre may be from where its chroma has it, in radii.
 const NEAR: f64 = 0.35;
 /// With less scatter than this nothing lies over a disc: a cable adds twice as much.
@@ -75,6 +71,14 @@ const CLEAR: f64 = 0.2;
 
 /// Above this confidence a disc is seen whole.
 const CERTAIN: f64 = 0.8;
+
+/// A disc as it was found.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    disc: Disc,
+    /// Nothing lies over it, as far as one disc tells; or its pad was measured as a whole.
+    is_whole: bool,
+}
 
 /// Finds discs; keeps nothing from frame to frame but the colour of the light.
 #[derive(Debug, Clone)]
@@ -97,34 +101,36 @@ impl Detector {
     /// Puts the discs of `frame` into `discs`, in the order of their topmost look. Discs cut by the image's edge are left
     /// out: their centre is not where it seems.
     pub fn detect(&mut self, frame: Frame<'_>, discs: &mut Vec<Disc>) {
-        discs.clear();
+        let mut found = Vec::new();
         match frame.order {
             ChannelOrder::Rgb => {
                 let weights = self.balance.look::<0>(frame);
-                self.scan::<0>(frame, weights, discs);
-                self.complete::<0>(frame, weights, discs);
+                self.scan::<0>(frame, weights, &mut found);
+                self.complete::<0>(frame, weights, &mut found);
             }
             ChannelOrder::Bgr => {
                 let weights = self.balance.look::<2>(frame);
-                self.scan::<2>(frame, weights, discs);
-                self.complete::<2>(frame, weights, discs);
+                self.scan::<2>(frame, weights, &mut found);
+                self.complete::<2>(frame, weights, &mut found);
             }
         }
+        discs.clear();
+        discs.extend(found.into_iter().map(|found| found.disc));
     }
 
-    fn scan<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, discs: &mut Vec<Disc>) {
+    fn scan<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, found: &mut Vec<Found>) {
         for v in (self.stride / 2..frame.height).step_by(self.stride) {
             for (index, look) in frame.row(v).chunks_exact(3 * self.stride).enumerate() {
                 let Some(colour) = self.classifier.classify::<RED>([look[0], look[1], look[2]], weights) else {
                     continue;
                 };
                 let u = index * self.stride;
-                if !self.is_known(discs, colour, u, v)
-                    && let Some(disc) = self.disc_around::<RED>(frame, colour, weights, [u, v])
-                    && !self.is_known(discs, colour, disc.centre.u as usize, disc.centre.v as usize)
+                if !self.is_known(found, colour, u, v)
+                    && let Some(one) = self.disc_around::<RED>(frame, colour, weights, [u, v])
+                    && !self.is_known(found, colour, one.disc.centre.u as usize, one.disc.centre.v as usize)
                 {
-                    discs.push(disc);
-                    if discs.len() == MOST_DISCS {
+                    found.push(one);
+                    if found.len() == MOST_DISCS {
                         return;
                     }
                 }
@@ -132,49 +138,10 @@ impl Detector {
         }
     }
 
-    /// Adds the discs that others tell of: those of pads of which one disc was found.
-    fn complete<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, discs: &mut Vec<Disc>) {
-        let Expectation { width, height, spacing } = self.expectation;
-        let away = |a: &Disc, b: &Disc| {
-            libm::hypot((a.centre.u - b.centre.u) / (spacing * width), (a.centre.v - b.centre.v) / (spacing * height))
-        };
-        let is_partner = |a: &Disc, b: &Disc| a.colour != b.colour && (away(a, b) - 1.0).abs() < 0.1;
-        let mut looks = 0;
-        for index in 0..discs.len() {
-            let Some(&disc) = discs.get(index) else { break };
-            if looks == MOST_PARTNERS || discs.len() == MOST_DISCS {
-                break;
-            }
-            if discs.iter().any(|other| is_partner(&disc, other)) {
-                continue;
-            }
-            looks += 1;
-            let found = self.partner::<RED>(frame, weights, &disc);
-            discs.extend(
-                found.filter(|it| !self.is_known(discs, it.colour, it.centre.u as usize, it.centre.v as usize)),
-            );
-        }
-    }
-
-    fn partner<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, of: &Disc) -> Option<Disc> {
-        let Expectation { width, height, spacing } = self.expectation;
-        let colour = of.colour.other();
-        let tracer = Tracer::<RED> { frame, colour, weights, longest: 0 };
-        let found =
-            partner::find(&tracer, of.centre, [spacing * width, spacing * height], [0.5 * width, 0.5 * height])?;
-        let is_coloured = self.classifier.admits::<RED>(colour, found.inside, found.outside, weights, WASHED_OUT);
-        is_coloured.then(|| Disc {
-            colour,
-            centre: found.centre,
-            area: self.expectation.area(),
-            confidence: 0.5 * of.confidence * (1.0 - found.scatter),
-        })
-    }
-
     /// Whether a pixel belongs to a disc already found.
-    fn is_known(&self, discs: &[Disc], colour: Colour, u: usize, v: usize) -> bool {
+    fn is_known(&self, found: &[Found], colour: Colour, u: usize, v: usize) -> bool {
         let reach = 0.6 * self.expectation.width.max(self.expectation.height);
-        discs.iter().any(|disc| {
+        found.iter().any(|Found { disc, .. }| {
             disc.colour == colour
                 && (disc.centre.u - u as f64).abs() < reach
                 && (disc.centre.v - v as f64).abs() < reach
@@ -187,7 +154,7 @@ impl Detector {
         colour: Colour,
         weights: Weights,
         [u, v]: [usize; 2],
-    ) -> Option<Disc> {
+    ) -> Option<Found> {
         let expected = self.expectation;
         let longest = (LARGEST * expected.width.max(expected.height)) as usize;
         let tracer = Tracer::<RED> { frame, colour, weights, longest };
@@ -196,9 +163,9 @@ impl Detector {
             return None;
         }
         match self.whole(&tracer, [u, v]) {
-            Some(disc) if disc.confidence > CERTAIN => Some(disc),
+            Some(disc) if disc.confidence > CERTAIN => Some(Found { disc, is_whole: true }),
             // Something may lie over it: then its centre of area is not its centre.
-            unsure => self.hidden(&tracer, [u, v]).or(unsure),
+            unsure => self.hidden(&tracer, [u, v]).or(unsure.map(|disc| Found { disc, is_whole: false })),
         }
     }
 
@@ -222,8 +189,7 @@ impl Detector {
         let round = measured.area / (std::f64::consts::FRAC_PI_4 * side(extent.columns) * side(extent.rows));
         let fits = (SMALLEST..LARGEST).contains(&ratio) && (ROUND[0]..ROUND[1]).contains(&round);
         let half = [0.5 * expected.width, 0.5 * expected.height];
-        // What lifts a weak channel lifts its noise.
-        let is_faint = measured.contrast * UNIT < FAINT * tracer.weights.strongest();
+        let is_faint = is_faint(measured.contrast, tracer.weights);
         let near = |found: &Faint| {
             let [across, down] = [found.centre.u - measured.centre.u, found.centre.v - measured.centre.v];
             libm::hypot(across / half[0], down / half[1]) < NEAR
@@ -238,7 +204,7 @@ impl Detector {
     }
 
     /// A disc that something lies over in part, away from the image's edge.
-    fn hidden<const RED: usize>(&self, tracer: &Tracer<'_, RED>, place: [usize; 2]) -> Option<Disc> {
+    fn hidden<const RED: usize>(&self, tracer: &Tracer<'_, RED>, place: [usize; 2]) -> Option<Found> {
         let half = [0.5 * self.expectation.width, 0.5 * self.expectation.height];
         let rim = rim::find(tracer, place, half)?;
         let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
@@ -246,11 +212,19 @@ impl Detector {
             inside(rim.centre.u, half[0], tracer.frame.width) && inside(rim.centre.v, half[1], tracer.frame.height);
         // Where nothing lies over it, colours were washed out: then all of its pixels tell more than its rim.
         let faint = faint::measure(tracer, rim.centre, half).filter(|faint| faint.scatter < CLEAR);
-        whole.then(|| Disc {
-            colour: tracer.colour,
-            centre: faint.map_or(rim.centre, |faint| faint.centre),
-            area: rim.size * rim.size * self.expectation.area(),
-            confidence: 0.5 * rim.seen,
+        whole.then(|| Found {
+            disc: Disc {
+                colour: tracer.colour,
+                centre: faint.map_or(rim.centre, |faint| faint.centre),
+                area: rim.size * rim.size * self.expectation.area(),
+                confidence: 0.5 * rim.seen,
+            },
+            is_whole: faint.is_some(),
         })
     }
+}
+
+/// Whether a disc of this chroma hardly stands out: what lifts a weak channel lifts its noise.
+fn is_faint(contrast: i32, weights: Weights) -> bool {
+    contrast * UNIT < FAINT * weights.strongest()
 }

@@ -11,6 +11,7 @@ mod detector;
 mod faint;
 mod frame;
 mod packed;
+mod pad_fit;
 mod partner;
 mod rim;
 mod yuyv;

@@ -26,27 +26,35 @@ pub(super) fn find<const RED: usize>(
     spacing: [f64; 2],
     half: [f64; 2],
 ) -> Option<Faint> {
+    let at = |place| faint::measure(tracer, place, half).filter(|found| fits(tracer, found, of, spacing, half));
+    places(tracer, of, spacing, half).into_iter().find_map(at)
+}
+
+/// Where it may be, the likeliest place first.
+pub(super) fn places<const RED: usize>(
+    tracer: &Tracer<'_, RED>,
+    of: Pixel,
+    spacing: [f64; 2],
+    half: [f64; 2],
+) -> Vec<Pixel> {
     let mut looks = [(0, Pixel::default()); DIRECTIONS];
     for (direction, look) in looks.iter_mut().enumerate() {
         let (sine, cosine) = libm::sincos(std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64);
         let place = Pixel { u: of.u + spacing[0] * cosine, v: of.v + spacing[1] * sine };
         *look = (spread(tracer, place, half), place);
     }
-    for _ in 0..TRIES {
-        let (best, &(chroma, place)) = looks.iter().enumerate().max_by_key(|(_, (chroma, _))| *chroma)?;
-        if chroma <= 0 {
-            return None;
-        }
-        let found = faint::measure(tracer, place, half).filter(|found| fits(tracer, found, of, spacing, half));
-        if found.is_some() {
-            return found;
-        }
+    let mut places = Vec::with_capacity(TRIES);
+    while places.len() < TRIES
+        && let Some((best, &(chroma, place))) = looks.iter().enumerate().max_by_key(|(_, (chroma, _))| *chroma)
+        && chroma > 0
+    {
+        places.push(place);
         // Elsewhere, then.
         for near in 0..=2 * APART {
             looks[(best + DIRECTIONS + near - APART) % DIRECTIONS].0 = 0;
         }
     }
-    None
+    places
 }
 
 /// Whether this is a disc, at the pad's spacing, away from the image's edge.

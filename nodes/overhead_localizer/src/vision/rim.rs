@@ -15,7 +15,7 @@ const REACH: [f64; 2] = [1.35, 0.55];
 /// So many of them must find the rim of one ellipse.
 const FEWEST: usize = 15;
 /// A place is on the ellipse within this, in radii: less than a pixel of the test bed's discs.
-const ON_RIM: f64 = 0.07;
+pub(super) const ON_RIM: f64 = 0.07;
 /// The whole is so large, in expected radii.
 const SIZE: [f64; 2] = [0.85, 1.15];
 /// Of the disc at least this part is seen.
@@ -33,12 +33,7 @@ pub(super) struct Rim {
 
 /// The disc with about these half axes (pixels) that the pixel at column `u` and row `v` belongs to.
 pub(super) fn find<const RED: usize>(tracer: &Tracer<'_, RED>, [u, v]: [usize; 2], half: [f64; 2]) -> Option<Rim> {
-    let mut level = tracer.level(u, v) / 2;
-    let mut centre = [u as f64, v as f64];
-    for _ in 0..5 {
-        // Where the disc's own level is known, half of it is its edge.
-        (centre, level) = middle(tracer, centre, half, level)?;
-    }
+    let (centre, level) = settle(tracer, [u as f64, v as f64], half, tracer.level(u, v) / 2)?;
     let (places, found) = rim(tracer, centre, half, level);
     let fitted = fit(&places[..found])?;
     let size = fitted.z;
@@ -46,6 +41,20 @@ pub(super) fn find<const RED: usize>(tracer: &Tracer<'_, RED>, [u, v]: [usize; 2
     let seen = cover(tracer, centre, half.map(|axis| 0.85 * size * axis), level);
     let fits = (SIZE[0]..SIZE[1]).contains(&size) && seen >= SEEN;
     fits.then_some(Rim { centre: Pixel { u: centre[0], v: centre[1] }, size, seen })
+}
+
+/// The mean place of the disc's pixels from a place in it on, and half their mean chroma; `level` is about that.
+pub(super) fn settle<const RED: usize>(
+    tracer: &Tracer<'_, RED>,
+    mut centre: [f64; 2],
+    half: [f64; 2],
+    mut level: i32,
+) -> Option<([f64; 2], i32)> {
+    for _ in 0..5 {
+        // Where the disc's own level is known, half of it is its edge.
+        (centre, level) = middle(tracer, centre, half, level)?;
+    }
+    Some((centre, level))
 }
 
 /// The mean place of the disc's pixels around a place, and half their mean chroma.
@@ -67,7 +76,7 @@ fn middle<const RED: usize>(
 }
 
 /// The part of an ellipse that has the disc's colour.
-fn cover<const RED: usize>(tracer: &Tracer<'_, RED>, centre: [f64; 2], half: [f64; 2], level: i32) -> f64 {
+pub(super) fn cover<const RED: usize>(tracer: &Tracer<'_, RED>, centre: [f64; 2], half: [f64; 2], level: i32) -> f64 {
     let (mut inside, mut all) = (0_u32, 0_u32);
     for_ellipse(centre, half, |u, v| {
         all += 1;
@@ -76,7 +85,7 @@ fn cover<const RED: usize>(tracer: &Tracer<'_, RED>, centre: [f64; 2], half: [f6
     f64::from(inside) / f64::from(all.max(1))
 }
 
-fn for_ellipse(centre: [f64; 2], half: [f64; 2], mut visit: impl FnMut(usize, usize)) {
+pub(super) fn for_ellipse(centre: [f64; 2], half: [f64; 2], mut visit: impl FnMut(usize, usize)) {
     let range =
         |axis: usize| (centre[axis] - half[axis]).max(0.0) as usize..(centre[axis] + half[axis]).max(0.0) as usize + 2;
     for v in range(1) {
@@ -90,7 +99,7 @@ fn for_ellipse(centre: [f64; 2], half: [f64; 2], mut visit: impl FnMut(usize, us
 }
 
 /// Places on the rim, in radii from the centre.
-fn rim<const RED: usize>(
+pub(super) fn rim<const RED: usize>(
     tracer: &Tracer<'_, RED>,
     centre: [f64; 2],
     half: [f64; 2],
