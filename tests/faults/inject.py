@@ -28,13 +28,19 @@ class Ears:
         return rclpy.create_node("faults", enable_rosout=False, start_parameter_services=False)
 
     def wait_for_start(self, timeout: float) -> None:
-        """Until leader_assignment says that robots move; the next frame is t0."""
+        """Until robots move; the next frame is t0."""
         deadline = time.monotonic() + timeout
         while self.t0 is None:
             if time.monotonic() > deadline:
                 raise TimeoutError("the run did not start")
-            started = re.search(r"\[(\d+\.\d+)\] \[leader_assignment\]: Start: started", self.log())
-            self.t0 = float(started.group(1)) if started else None
+            log = self.log()
+            started = re.search(r"\[(\d+\.\d+)\] \[leader_assignment\]: Start: started", log)
+            # A run that goes on where an earlier life was has no start: the operator says how old it is.
+            going_on = re.search(r"\[(\d+\.\d+)\] \[operator\]: t = +(\d+\.\d+) s", log)
+            if started:
+                self.t0 = float(started.group(1))
+            elif going_on:
+                self.t0 = float(going_on.group(1)) - float(going_on.group(2))
             time.sleep(0.02)
 
     def wait_until(self, seconds: float) -> None:
@@ -61,63 +67,157 @@ def _found(ears: Ears, kind, topic: str):
     return publisher
 
 
-def _publish(ears: Ears, kind, topic: str, make, seconds: float) -> float:
-    publisher = _found(ears, kind, topic)
-    began, end = time.time(), time.monotonic() + seconds
-    while time.monotonic() < end:
-        publisher.publish(make())
-        time.sleep(1.0 / RATE)
-    ears.node.destroy_publisher(publisher)
-    return began
-
-
 def _now(ears: Ears):
     return ears.node.get_clock().now().to_msg()
 
 
-def foreign_command(ears: Ears, seconds: float) -> float:
-    """Somebody else drives robot1, fast."""
+def _speak(ears: Ears, voices: list, seconds: float) -> float:
+    """Publishes on several topics at once: kind, topic and what makes each message (or its bytes)."""
+    publishers = [(ears.node.create_publisher(kind, topic, 10), make) for kind, topic, make in voices]
+    deadline = time.monotonic() + 1.0
+    while any(publisher.get_subscription_count() < 1 for publisher, _ in publishers) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    time.sleep(0.3)
+    began, end, turn = time.time(), time.monotonic() + seconds, 0
+    while time.monotonic() < end:
+        for publisher, make in publishers:
+            publisher.publish(make(turn))
+        turn += 1
+        time.sleep(1.0 / RATE)
+    for publisher, _ in publishers:
+        ears.node.destroy_publisher(publisher)
+    return began
+
+
+def _command(stamp, speed: float):
     from geometry_msgs.msg import TwistStamped
 
-    def make():
-        command = TwistStamped()
-        command.header.stamp = _now(ears)
-        command.twist.linear.x = 0.25
-        return command
-
-    return _publish(ears, TwistStamped, "/robot1/cmd_vel", make, seconds)
+    command = TwistStamped()
+    command.header.stamp = stamp
+    command.twist.linear.x = speed
+    return command
 
 
-def nan_team_state(ears: Ears, seconds: float) -> float:
-    """Somebody else says where robots are: nowhere."""
+def _team(stamp, place: float):
     from trench_msgs.msg import RobotState, TeamState
 
-    def make():
-        team = TeamState()
-        team.header.stamp = _now(ears)
-        for number in range(1, 5):
-            robot = RobotState(name=f"robot{number}", status=RobotState.STATUS_TRACKED)
-            robot.x = robot.y = robot.theta = robot.v = math.nan
-            team.robots.append(robot)
-        return team
-
-    return _publish(ears, TeamState, "/team_state", make, seconds)
+    team = TeamState()
+    team.header.stamp = stamp
+    for number in range(1, 5):
+        robot = RobotState(name=f"robot{number}", status=RobotState.STATUS_TRACKED)
+        robot.x = robot.y = robot.theta = robot.v = place
+        team.robots.append(robot)
+    return team
 
 
-def nan_goals(ears: Ears, seconds: float) -> float:
-    """Somebody else says where robots go: nowhere."""
+def _goals(stamp, place: float):
     from trench_msgs.msg import Goal, Goals
 
-    def make():
-        goals = Goals(epoch=2**63)
-        goals.header.stamp = _now(ears)
-        for number in range(1, 5):
-            goal = Goal(robot=f"robot{number}", remaining=1e9)
-            goal.position.x = goal.position.y = math.nan
-            goals.goals.append(goal)
-        return goals
+    goals = Goals(epoch=2**63)
+    goals.header.stamp = stamp
+    for number in range(1, 5):
+        goal = Goal(robot=f"robot{number}", remaining=1e9)
+        goal.position.x = goal.position.y = place
+        goals.goals.append(goal)
+    return goals
 
-    return _publish(ears, Goals, "/goals", make, seconds)
+
+def _triangle(place: float) -> list:
+    from trench_msgs.msg import Point2
+
+    return [Point2(x=place, y=place), Point2(x=place + 0.1, y=place), Point2(x=place, y=place + 0.1)]
+
+
+def _hulls(stamp, place: float):
+    from trench_msgs.msg import ApparentObstacle, ApparentObstacleArray
+
+    hulls = ApparentObstacleArray()
+    hulls.header.stamp = stamp
+    hulls.obstacles.append(ApparentObstacle(id=1, hull=_triangle(place), members=[1]))
+    return hulls
+
+
+def _obstacles(stamp, place: float):
+    from trench_msgs.msg import Obstacle, ObstacleArray
+
+    obstacles = ObstacleArray()
+    obstacles.header.stamp = stamp
+    obstacles.obstacles.append(Obstacle(id=1, polygon=_triangle(place)))
+    return obstacles
+
+
+def _leader(stamp, place: float):
+    from trench_msgs.msg import LeaderState
+
+    leader = LeaderState(robot="robot2")
+    leader.header.stamp = stamp
+    leader.position.x = leader.position.y = leader.theta = leader.goal_distance = place
+    return leader
+
+
+def _voices() -> list:
+    """What makes robots move: kind, topic, message from a stamp and a number."""
+    from geometry_msgs.msg import TwistStamped
+    from trench_msgs.msg import ApparentObstacleArray, Goals, LeaderState, ObstacleArray, TeamState
+
+    return [
+        (TeamState, "/team_state", _team),
+        (Goals, "/goals", _goals),
+        (TwistStamped, "/robot1/cmd_vel", _command),
+        (ApparentObstacleArray, "/apparent_obstacles", _hulls),
+        (ObstacleArray, "/obstacles", _obstacles),
+        (LeaderState, "/robot2/leader_state", _leader),
+    ]
+
+
+def foreign_command(ears: Ears, seconds: float) -> float:
+    """Somebody else drives robot1, fast."""
+    kind, topic, make = _voices()[2]
+    return _speak(ears, [(kind, topic, lambda _: make(_now(ears), 0.25))], seconds)
+
+
+def not_numbers(ears: Ears, seconds: float) -> float:
+    """Somebody else speaks on all topics that move robots, and says no numbers."""
+    values = (math.nan, math.inf, -math.inf, 1e300)
+
+    def voice(make):
+        return lambda turn: make(_now(ears), values[turn % len(values)])
+
+    return _speak(ears, [(kind, topic, voice(make)) for kind, topic, make in _voices()], seconds)
+
+
+def past_and_future(ears: Ears, seconds: float) -> float:
+    """Somebody else speaks on all topics that move robots, of an hour ago and of the next one."""
+
+    def voice(make):
+        def said(turn: int):
+            stamp = _now(ears)
+            stamp.sec += 3600 if turn % 2 else -3600
+            return make(stamp, 0.2)
+
+        return said
+
+    return _speak(ears, [(kind, topic, voice(make)) for kind, topic, make in _voices()], seconds)
+
+
+def wrong_sizes(ears: Ears, seconds: float) -> float:
+    """Somebody else sends bytes that are none of the types that it announces: too short, too long, with lengths of its own."""
+    chance = random.Random(2)
+
+    def noise(_):
+        return b"\x00\x01\x00\x00" + chance.randbytes(chance.choice([0, 1, 3, 17, 64, 900]))
+
+    return _speak(ears, [(kind, topic, noise) for kind, topic, _ in _voices()], seconds)
+
+
+def wrong_types(ears: Ears, seconds: float) -> float:
+    """Somebody else has another type on all topics that move robots."""
+    from std_msgs.msg import String
+
+    # Known as wrong as soon as it is there.
+    began = time.time()
+    _speak(ears, [(String, topic, lambda _: String(data="x" * 100)) for _, topic, _ in _voices()], seconds)
+    return began
 
 
 def garbage_udp(ears: Ears, seconds: float) -> float:
@@ -159,8 +259,24 @@ def emergency_stop(ears: Ears, seconds: float) -> float:
     return began
 
 
+def scale_formation(ears: Ears, scale: float) -> None:
+    """Somebody wants the formation in another size."""
+    import rclpy
+    from trench_msgs.srv import SetFormation
+
+    client = ears.node.create_client(SetFormation, "/leader_assignment/set_formation")
+    if not client.wait_for_service(timeout_sec=5.0):
+        raise TimeoutError("/leader_assignment/set_formation is not there")
+    answer = client.call_async(SetFormation.Request(scale=scale))
+    rclpy.spin_until_future_complete(ears.node, answer, timeout_sec=5.0)
+    if not answer.result() or not answer.result().success:
+        raise RuntimeError(f"the formation did not change: {answer.result()}")
+
+
 # Each gives when it began, s, wall clock.
 INJECTIONS = {
     function.__name__: function
-    for function in (foreign_command, nan_team_state, nan_goals, garbage_udp, emergency_stop)
+    for function in (
+        foreign_command, not_numbers, past_and_future, wrong_sizes, wrong_types, garbage_udp, emergency_stop,
+    )
 }

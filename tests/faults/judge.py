@@ -3,6 +3,9 @@
 import bisect
 import math
 import re
+import struct
+import subprocess
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +24,10 @@ RECOVERY, FORMATION = 2.0, 10.0
 NEAR = 0.04
 # rad/s and m/s, beyond which no command goes.
 LIMITS = (0.31, 5.0)
+# What is published where a fault does this are commands of somebody else, too.
+FOREIGN = ("foreign_command", "not_numbers", "past_and_future", "wrong_sizes")
+# From which on goals are not of our assignment.
+FOREIGN_EPOCH = 2**62
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
 # s, the longest gap in the bag.
@@ -97,11 +104,14 @@ def seconds(stamp) -> float:
 
 
 class Run:
-    """A bag as series."""
+    """A bag as series. With `clocks` that jump, stamps are off by whole hours, which are taken out."""
 
-    def __init__(self, bag: Path):
+    def __init__(self, bag: Path, clocks: bool = False):
+        self.clocks = clocks
         self.truth: dict[str, Series] = {}
         self.commands: dict[str, Series] = {}
+        # What the latest command up to then rests on: its stamp, s.
+        self.basis: dict[str, Series] = {}
         self.goals = Series()
         self.team = Series()
         self.diagnostics: list[tuple[float, str, bytes]] = []
@@ -112,29 +122,44 @@ class Run:
         self.bed_faults: list[tuple[float, str]] = []
         for file in sorted(bag.glob("*.mcap")):
             with open(file, "rb") as stream:
-                reader = make_reader(stream, decoder_factories=[DecoderFactory()])
-                for _, channel, message, value in reader.iter_decoded_messages():
+                decoders: dict[int, Callable] = {}
+                for schema, channel, message in make_reader(stream).iter_messages():
+                    decoder = decoders.get(schema.id) or DecoderFactory().decoder_for(channel.message_encoding, schema)
+                    decoders[schema.id] = decoder
+                    try:
+                        value = decoder(message.data)
+                    except (struct.error, ValueError):
+                        # A fault may have put there what is no message.
+                        continue
                     self._take(channel.topic, 1e-9 * message.log_time, value)
+
+    def _time(self, stamp, at: float) -> float:
+        time = seconds(stamp)
+        return time - 3600.0 * round((time - at) / 3600.0) if self.clocks else time
 
     def _take(self, topic: str, at: float, message) -> None:
         parts = topic.strip("/").split("/")
         if topic.startswith("/ground_truth/") and parts[-1] == "odom":
             pose, twist = message.pose.pose, message.twist.twist
             state = (pose.position.x, pose.position.y, math.hypot(twist.linear.x, twist.linear.y), twist.angular.z)
-            self.truth.setdefault(parts[1], Series()).add(seconds(message.header.stamp), state)
+            self.truth.setdefault(parts[1], Series()).add(self._time(message.header.stamp, at), state)
             self.log_times.append(at)
         elif topic == "/ground_truth/contacts":
-            self.contacts += [(seconds(message.header.stamp), status.message) for status in message.status]
+            self.contacts += [(self._time(message.header.stamp, at), status.message) for status in message.status]
         elif parts[-1] == "cmd_vel":
             self.commands.setdefault(parts[0], Series()).add(at, (message.twist.linear.x, message.twist.angular.z))
+            basis = self.basis.setdefault(parts[0], Series())
+            stamp = self._time(message.header.stamp, at)
+            # What is from the future comes from nobody of ours.
+            basis.add(at, max(stamp if stamp <= at else 0.0, basis.values[-1] if basis.values else 0.0))
         elif topic == "/goals":
-            if all(math.isfinite(goal.position.x) for goal in message.goals):
+            if message.epoch < FOREIGN_EPOCH:
                 goals = {goal.robot: (goal.position.x, goal.position.y) for goal in message.goals}
-                self.goals.add(seconds(message.header.stamp), goals)
+                self.goals.add(self._time(message.header.stamp, at), goals)
         elif topic == "/run_state" and message.state == 3:
             self.stopped = self.stopped or at
         elif topic == "/run_state" and message.state == 2 and seconds(message.t0) > 0.0:
-            self.t0 = self.t0 or seconds(message.t0)
+            self.t0 = self.t0 or self._time(message.t0, at)
         elif topic == "/diagnostics":
             for status in message.status:
                 level = status.level if isinstance(status.level, bytes) else bytes([status.level])
@@ -170,7 +195,7 @@ class Run:
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
     """A verdict on each fault of the run."""
-    bag = Run(evidence.bag)
+    bag = Run(evidence.bag, run.get("clocks", False))
     counts: dict[str, int] = {}
     for fault in run["faults"]:
         if "bed" not in fault:
@@ -198,7 +223,9 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if began == 0.0:
         verdict.problems.append("it never began")
         return verdict
-    contacts = [text for at, text in bag.contacts if began <= at <= ended + FORMATION]
+    # What is carried to touch somebody does so at once.
+    since = began + (0.2 if fault.get("touches") else 0.0)
+    contacts = [text for at, text in bag.contacts if since <= at <= ended + FORMATION]
     if contacts:
         verdict.problems.append(f"contact: {contacts[0]}")
     diagnose(bag, fault, began, evidence, verdict)
@@ -209,6 +236,8 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         return verdict
     if "double" in fault and fault["code"] != TAKEN:
         verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
+    if "bag" in fault and (lost := lost_at(evidence, began)) > GAP:
+        verdict.problems.append(f"the bag ends {lost:.1f} s before the fault")
     stopped = sorted(bag.truth) if fault.get("stops") else fault.get("halts", [])
     if stopped:
         verdict.stood = standstill(bag, stopped, began, ended)
@@ -218,9 +247,24 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     return verdict
 
 
+def lost_at(evidence: Evidence, began: float) -> float:
+    """How much of what came before the fault the bag of the launch does not have, s; infinite if it cannot be read."""
+    whole_bag = evidence.own_bag.with_name("own-bag-recovered")
+    trench = str(evidence.binaries / "trench")
+    done = subprocess.run([trench, "bag", "recover", str(evidence.own_bag), str(whole_bag)], check=False)
+    times = Run(whole_bag).log_times if done.returncode == 0 else []
+    return began - max((at for at in times if at <= began), default=-math.inf)
+
+
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
     """When the fault was named."""
     pattern = fault.get("says")
+    if "warns" in fault:
+        lines = re.findall(r"\[(?:WARN|ERROR)\] \[(\d+\.\d+)\] \[[\w.]+\]: (.*)", evidence.log)
+        times = [float(at) - began for at, text in lines if float(at) >= began and re.search(fault["warns"], text)]
+        verdict.diagnosed = min(times, default=None)
+        if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
+            verdict.problems.append(f"no warning like {fault['warns']!r} within {DIAGNOSTIC} s")
     if pattern is None:
         return
     if pattern == "launcher":
@@ -272,18 +316,29 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict) -> None:
         verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 
+def stale(bag: Run) -> list[str]:
+    """Robots that move although all that their commands rest on is too old: 0.25 s, and the time to brake."""
+    problems = []
+    for robot, series in bag.truth.items():
+        basis = bag.basis.get(robot, Series())
+        for at, state in series.between(bag.t0 or math.inf, bag.stopped or math.inf):
+            newest = basis.at(at)
+            if state[2] > STANDS and (newest is None or at - newest > STANDSTILL):
+                problems.append(f"{robot} moves at {at - bag.t0:.2f} s on information of {at - (newest or 0.0):.2f} s ago")
+                break
+    return problems
+
+
 def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     """What is wrong with the run as a whole."""
     problems = []
     for robot, series in bag.commands.items():
-        bad = [value for value in series.values if not all(map(math.isfinite, value))]
-        if bad:
-            problems.append(f"a command for {robot} is not finite: {bad[0]}")
-        foreign = any(fault.get("publish") == "foreign_command" for fault in run["faults"])
-        beyond = [value for value in series.values if abs(value[0]) > LIMITS[0] or abs(value[1]) > LIMITS[1]]
+        foreign = any(fault.get("publish") in FOREIGN for fault in run["faults"])
+        # Written so that what is no number is beyond too.
+        beyond = [value for value in series.values if not (abs(value[0]) <= LIMITS[0] and abs(value[1]) <= LIMITS[1])]
         if beyond and not foreign:
             problems.append(f"a command for {robot} is beyond its limits: {beyond[0]}")
-    victims = {fault.get("kill", "").split("/")[-1] for fault in run["faults"]} - {""}
+    victims = {str(fault.get("kill", fault.get("victim", ""))).split("/")[-1] for fault in run["faults"]} - {""}
     for label, status in re.findall(r"\[([\w/.-]+)\]: process has died \[pid \d+, ([^\]]*)\]", evidence.log):
         if label.rsplit("-", 1)[0] not in victims and "operator" not in label:
             problems.append(f"{label} died too: {status}")
@@ -294,6 +349,7 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
+    problems += stale(bag)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")

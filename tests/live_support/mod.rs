@@ -48,22 +48,32 @@ impl Launch {
 
     /// Runs a launch file to its end, recording a bag.
     pub(crate) fn run(&self, file: &str, arguments: &[&str]) -> (ExitStatus, String) {
+        self.finish(self.recording(file, arguments))
+    }
+
+    /// The launch of a file that records a bag.
+    pub(crate) fn recording(&self, file: &str, arguments: &[&str]) -> Command {
+        let mut command = self.command(file, "");
+        command.arg("record:=true").arg(format!("bag:={}", self.bag().display()));
+        command.arg(format!("port:={}", self.folder.path().join("port").display())).args(arguments);
+        command
+    }
+
+    /// The launch of a file, with run folder, state and shared memory of its own; with a `host`, those of that host.
+    pub(crate) fn command(&self, file: &str, host: &str) -> Command {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let output = Command::new(env!("CARGO_BIN_EXE_trench"))
-            .arg("launch")
-            .arg(root.join("launch").join(file))
-            .arg("record:=true")
-            .arg(format!("bag:={}", self.bag().display()))
-            .arg(format!("port:={}", self.folder.path().join("port").display()))
-            .args(arguments)
-            .arg("--run-dir")
-            .arg(self.folder.path().join("run"))
-            .env("ROS_DOMAIN_ID", self.domain.to_string())
-            .env("TRENCH_SHM_PREFIX", self.shared_memory())
-            .env("TRENCH_STATE_DIR", self.folder.path().join("state"))
-            .envs(self.variables.iter().map(|(name, value)| (name, value)))
-            .output()
-            .unwrap();
+        let own = |name: &str| self.folder.path().join(format!("{name}{host}"));
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
+        command.arg("launch").arg(root.join("launch").join(file)).arg("--run-dir").arg(own("run"));
+        command.env("ROS_DOMAIN_ID", self.domain.to_string());
+        command.env("TRENCH_SHM_PREFIX", self.shared_memory(host)).env("TRENCH_STATE_DIR", own("state"));
+        command.envs(self.variables.iter().map(|(name, value)| (name, value)));
+        command
+    }
+
+    /// Waits for a launch to end; gives what it said.
+    pub(crate) fn finish(&self, mut command: Command) -> (ExitStatus, String) {
+        let output = command.output().unwrap();
         let text = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
         self.left_nothing_behind();
         (output.status, worst_first(&text))
@@ -76,7 +86,7 @@ impl Launch {
         assert!(port.symlink_metadata().is_err(), "{} is still there", port.display());
         let names =
             std::fs::read_dir("/dev/shm").unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let ours = names.filter(|name| name.contains(&self.shared_memory()) && !name.ends_with(".global_mgmt"));
+        let ours = names.filter(|name| name.contains(&self.shared_memory("")) && !name.ends_with(".global_mgmt"));
         assert_eq!(ours.collect::<Vec<_>>(), Vec::<String>::new(), "shared memory is left");
     }
 
@@ -90,15 +100,15 @@ impl Launch {
         summary
     }
 
-    /// The prefix of its shared memory.
-    fn shared_memory(&self) -> String {
-        format!("live{}_{}_", self.domain, std::process::id())
+    /// The prefix of its shared memory on a host.
+    fn shared_memory(&self, host: &str) -> String {
+        format!("live{}{host}_{}_", self.domain, std::process::id())
     }
 }
 
 impl Drop for Launch {
     fn drop(&mut self) {
-        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory()) {
+        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory("")) {
             println!("shared memory of the test stays behind: {error}");
         }
     }

@@ -12,6 +12,7 @@ mod description;
 mod event;
 mod health;
 mod interface;
+mod jump;
 mod master;
 mod name;
 mod node_core;
@@ -25,6 +26,7 @@ pub use health::{Condition, Health};
 pub use interface::{
     Advertise, ByteStream, Discovered, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe,
 };
+pub use jump::JumpWatch;
 pub use master::{Master, NotMaster};
 pub use name::resolve_name;
 pub use node_core::{NodeContext, NodeCore, StartError};

@@ -1,6 +1,7 @@
 //! The two clocks of a process (architecture invariant 9).
 
-use rustix::time::{ClockId, Timespec, clock_gettime};
+use rustix::time::{ClockId, clock_gettime};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use trench_core::{RosTime, Steady, Times};
 
 /// Where ROS time comes from.
@@ -54,18 +55,19 @@ impl Clock {
     }
 }
 
-/// The system's wall clock.
+/// The system's wall clock. It is asked through the C library, so that what stands in between (libfaketime) is heard.
 pub(crate) fn wall_now() -> RosTime {
-    RosTime(nanoseconds(clock_gettime(ClockId::Realtime)))
+    let nanoseconds = |time: Duration| i64::try_from(time.as_nanos()).unwrap_or(i64::MAX);
+    RosTime(match SystemTime::now().duration_since(UNIX_EPOCH) {
+        Ok(after) => nanoseconds(after),
+        Err(before) => -nanoseconds(before.duration()),
+    })
 }
 
 /// The monotonic clock that all processes of a host share.
 pub(crate) fn steady_now() -> Steady {
-    Steady(u64::try_from(nanoseconds(clock_gettime(ClockId::Monotonic))).unwrap_or(0))
-}
-
-fn nanoseconds(time: Timespec) -> i64 {
-    time.tv_sec.saturating_mul(1_000_000_000).saturating_add(time.tv_nsec)
+    let time = clock_gettime(ClockId::Monotonic);
+    Steady(u64::try_from(time.tv_sec.saturating_mul(1_000_000_000).saturating_add(time.tv_nsec)).unwrap_or(0))
 }
 
 #[cfg(test)]

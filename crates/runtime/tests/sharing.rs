@@ -13,12 +13,17 @@ const GOES_ON: &str = "/chatter: over the network too";
 /// Slow enough for shared memory alone.
 const TALKER: &str = "--ros-args --log-level debug -p rate:=40.0";
 
+/// With what the names of shared memory of processes on an island begin.
+fn prefix(island: &Island) -> String {
+    let command = island.command("talker", "");
+    let own = command.get_envs().find(|(name, _)| *name == "TRENCH_SHM_PREFIX").and_then(|(_, prefix)| prefix);
+    own.unwrap_or_default().display().to_string()
+}
+
 /// Starts an example as if on another host: it has the network alone in common with the others.
 fn start_apart(island: &Island, example: &str, arguments: &str) -> Running {
     let mut command = island.command(example, arguments);
-    let own = command.get_envs().find(|(name, _)| *name == "TRENCH_SHM_PREFIX").and_then(|(_, prefix)| prefix);
-    let prefix = format!("{}_apart", own.unwrap_or_default().display());
-    command.env("TRENCH_SHM_PREFIX", prefix);
+    command.env("TRENCH_SHM_PREFIX", prefix(island) + "_apart");
     Island::run(command)
 }
 
@@ -138,4 +143,51 @@ fn frames_go_over_the_network_on_demand() {
     read_to(&viewer, first + 5);
     read_to(&near, first + 5);
     drop(public);
+}
+
+/// How many writers are killed; scripts/acceptance takes 1000.
+fn kills() -> usize {
+    std::env::var("TRENCH_KILLS").ok().and_then(|kills| kills.parse().ok()).unwrap_or(20)
+}
+
+/// How many files of shared memory there are.
+#[expect(clippy::unwrap_used, reason = "a test helper")]
+fn shared_files(island: &Island) -> usize {
+    let (prefix, files) = (prefix(island), std::fs::read_dir("/dev/shm").unwrap());
+    files.filter(|file| file.as_ref().is_ok_and(|file| file.file_name().to_string_lossy().starts_with(&prefix))).count()
+}
+
+/// Files that this process has open, and the kilobytes of memory that are its own.
+#[expect(clippy::unwrap_used, reason = "a test helper")]
+fn holds(listener: &Running) -> (usize, usize) {
+    let process = std::path::PathBuf::from(format!("/proc/{}", listener.child.id()));
+    let status = std::fs::read_to_string(process.join("status")).unwrap();
+    let anonymous = status.lines().find_map(|line| line.strip_prefix("RssAnon:")).unwrap();
+    let kilobytes = anonymous.trim().trim_end_matches(" kB").parse().unwrap();
+    (std::fs::read_dir(process.join("fd")).unwrap().count(), kilobytes)
+}
+
+#[test]
+fn writers_that_are_killed_leave_nothing_behind() {
+    let island = Island::new(24);
+    let listener = island.start("listener", "");
+    let mut first = None;
+    for kill in 0..kills() {
+        let talker = island.start("talker", "--ros-args --log-level debug -p rate:=100.0");
+        talker.wait_for_log(RESTS);
+        // Each counts from 1: what the last one said may still come.
+        while next(&listener) > 3 {}
+        read_to(&listener, 5);
+        talker.signal("KILL");
+        assert_eq!(talker.end().0, 137);
+        if kill == 5 {
+            first = Some((shared_files(&island), holds(&listener)));
+        }
+    }
+    let (files, (open, kilobytes)) = first.unwrap();
+    let (files_now, (open_now, kilobytes_now)) = (shared_files(&island), holds(&listener));
+    println!("files {files} to {files_now}, open {open} to {open_now}, own memory {kilobytes} to {kilobytes_now} kB");
+    // The last one's remains are found by the next one.
+    assert!(files_now <= files + 4 && open_now <= open + 4, "files {files} to {files_now}, open {open} to {open_now}");
+    assert!(kilobytes_now < kilobytes + 10_000, "own memory {kilobytes} to {kilobytes_now} kB");
 }

@@ -1,6 +1,7 @@
 //! Packets on their way between base station and robots.
 
-use crate::fault::Cuts;
+use crate::fault::{Cuts, Intrusion};
+use crate::intruder::Intruder;
 use crate::medium::{Medium, MediumSetup, Way};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -31,6 +32,7 @@ type Flights = BTreeMap<(u64, u64), Flying>;
 pub(crate) struct Air {
     medium: Medium,
     cuts: Cuts,
+    intruder: Intruder,
     to_robots: Flights,
     to_base: Flights,
     sent: u64,
@@ -39,7 +41,14 @@ pub(crate) struct Air {
 impl Air {
     pub(crate) fn new(setup: MediumSetup, seed: u64, now: u64) -> Self {
         let medium = Medium::new(setup, seed, now);
-        Self { medium, cuts: Cuts::default(), to_robots: Flights::new(), to_base: Flights::new(), sent: 0 }
+        Self {
+            medium,
+            cuts: Cuts::default(),
+            intruder: Intruder::default(),
+            to_robots: Flights::new(),
+            to_base: Flights::new(),
+            sent: 0,
+        }
     }
 
     /// The air becomes better or worse.
@@ -52,6 +61,11 @@ impl Air {
         self.cuts = cuts;
     }
 
+    /// Somebody without a key does this from now on.
+    pub(crate) fn intrude(&mut self, intrusion: Option<Intrusion>) {
+        self.intruder.does = intrusion;
+    }
+
     /// How well it carries.
     pub(crate) fn setup(&self) -> MediumSetup {
         *self.medium.setup()
@@ -59,27 +73,39 @@ impl Air {
 
     /// A station sends a packet that is meant for the base station too, or for robots alone.
     pub(crate) fn send(&mut self, now: u64, from: Station, robots: &[Pose2], packet: &Arc<[u8]>, for_base: bool) {
-        let place = |robot: usize| robots.get(robot).map_or([0.0; 2], |pose| [pose.x, pose.y]);
-        let antenna = self.medium.setup().antenna;
-        let (origin, way) = match from {
-            Station::Base => (antenna, Way::Down),
-            Station::Robot(robot) => (place(robot), Way::Across),
-        };
-        // The air carries what nobody hears too: its chances do not depend on faults.
-        let silent = |robot: usize| self.cuts.silent.contains(&robot);
-        if let Station::Robot(robot) = from
-            && for_base
-            && let Some(arrival) = self.medium.carry(now, Way::Up, origin, antenna)
-            && !silent(robot)
-        {
-            self.sent += 1;
-            let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
-            self.to_base.insert((arrival.at, self.sent), flying);
+        if let Station::Robot(robot) = from {
+            if for_base {
+                self.reach_base(now, robot, place(robots, robot), packet);
+            }
+            self.reach_robots(now, from, robots, packet);
+            return;
         }
+        let (packet, intruders) = self.intruder.disturb(now, packet);
+        for packet in std::iter::once(packet).chain(intruders) {
+            self.reach_robots(now, from, robots, &packet);
+        }
+    }
+
+    // The air carries what nobody hears too: its chances do not depend on faults.
+
+    fn reach_base(&mut self, now: u64, robot: usize, origin: [f64; 2], packet: &Arc<[u8]>) {
+        let Some(arrival) = self.medium.carry(now, Way::Up, origin, self.medium.setup().antenna) else { return };
+        if self.cuts.separates(Station::Robot(robot), Station::Base) {
+            return;
+        }
+        self.sent += 1;
+        let flying = Flying { robot, signal_dbm: arrival.signal_dbm, packet: Arc::clone(packet) };
+        self.to_base.insert((arrival.at, self.sent), flying);
+    }
+
+    fn reach_robots(&mut self, now: u64, from: Station, robots: &[Pose2], packet: &Arc<[u8]>) {
+        let (origin, way) = match from {
+            Station::Base => (self.medium.setup().antenna, Way::Down),
+            Station::Robot(robot) => (place(robots, robot), Way::Across),
+        };
         for robot in (0..robots.len()).filter(|robot| from != Station::Robot(*robot)) {
-            let Some(arrival) = self.medium.carry(now, way, origin, place(robot)) else { continue };
-            let cut = matches!(from, Station::Robot(from) if silent(from) || self.cuts.separates(from, robot));
-            if cut || silent(robot) {
+            let Some(arrival) = self.medium.carry(now, way, origin, place(robots, robot)) else { continue };
+            if self.cuts.separates(from, Station::Robot(robot)) {
                 continue;
             }
             self.sent += 1;
@@ -107,4 +133,8 @@ impl Air {
     pub(crate) fn pop_at_base(&mut self) -> Option<Flying> {
         self.to_base.pop_first().map(|(_, flying)| flying)
     }
+}
+
+fn place(robots: &[Pose2], robot: usize) -> [f64; 2] {
+    robots.get(robot).map_or([0.0; 2], |pose| [pose.x, pose.y])
 }

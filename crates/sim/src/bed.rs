@@ -279,15 +279,21 @@ impl Bed {
         let time = now - self.start;
         for robot in 0..self.firmware.len() {
             self.world.set_grip(robot, [1.0; 2]);
+            self.world.set_missing(robot, 0.0);
         }
         for (robot, pose) in self.faults.carried(self.faults_since, time) {
             self.world.place(robot, pose);
         }
-        let (mut cuts, mut medium) = (Cuts::default(), self.medium);
+        let (mut cuts, mut medium, mut intrusion) = (Cuts::default(), self.medium, None);
         for fault in self.faults.at(time) {
             match fault {
                 FaultKind::Slip { robots, grip } => robots.iter().for_each(|robot| self.world.set_grip(*robot, *grip)),
+                FaultKind::Missed { robots, share } => {
+                    robots.iter().for_each(|robot| self.world.set_missing(*robot, *share));
+                }
                 FaultKind::Silent { robots } => cuts.silent.extend(robots),
+                FaultKind::Far { robots } => cuts.far.extend(robots),
+                FaultKind::Intruder(kind) => intrusion = Some(*kind),
                 FaultKind::Parted { robots } => cuts.parted.push(robots.iter().copied().collect()),
                 FaultKind::Loss { loss } => medium.loss = *loss,
                 FaultKind::Carried { .. }
@@ -297,6 +303,7 @@ impl Bed {
             }
         }
         self.air.cut(cuts);
+        self.air.intrude(intrusion);
         if self.air.setup() != medium {
             self.air.set(medium, now);
         }

@@ -1,5 +1,6 @@
 //! Faults that are put into a test bed on purpose, each for its time.
 
+use crate::air::Station;
 use std::collections::BTreeSet;
 use trench_optics::Pose2;
 
@@ -48,6 +49,20 @@ pub enum FaultKind {
         /// Which.
         robots: Vec<usize>,
     },
+    /// These robots and the base station do not hear each other; their neighbours hear both.
+    Far {
+        /// Which.
+        robots: Vec<usize>,
+    },
+    /// Somebody else is on the air who has no key.
+    Intruder(Intrusion),
+    /// Motors miss this share of the steps that they are told to make.
+    Missed {
+        /// Whose.
+        robots: Vec<usize>,
+        /// 0 to 1.
+        share: f64,
+    },
     /// Everybody misses this share of the packets.
     Loss {
         /// 0 to 1.
@@ -60,6 +75,17 @@ pub enum FaultKind {
     },
     /// Something is wrong with the camera.
     Frames(FrameFault),
+}
+
+/// What somebody without the key does on the air.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Intrusion {
+    /// Sends commands of its own right behind the base station's: full speed ahead.
+    Forged,
+    /// Sends what the base station said half a second ago once more.
+    Replayed,
+    /// Spoils a bit of half of the base station's packets.
+    Corrupted,
 }
 
 /// What can be wrong with frames.
@@ -89,6 +115,11 @@ impl FaultKind {
             Self::Battery { .. } => "battery",
             Self::Silent { .. } => "silent",
             Self::Parted { .. } => "parted",
+            Self::Far { .. } => "far",
+            Self::Intruder(Intrusion::Forged) => "forged",
+            Self::Intruder(Intrusion::Replayed) => "replayed",
+            Self::Intruder(Intrusion::Corrupted) => "corrupted",
+            Self::Missed { .. } => "missed",
             Self::Loss { .. } => "loss",
             Self::Covered { .. } => "covered",
             Self::Frames(FrameFault::Stopped) => "stopped",
@@ -138,12 +169,24 @@ impl Faults {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Cuts {
     pub(crate) silent: BTreeSet<usize>,
+    /// Who and the base station do not hear each other.
+    pub(crate) far: BTreeSet<usize>,
     pub(crate) parted: Vec<BTreeSet<usize>>,
 }
 
 impl Cuts {
-    pub(crate) fn separates(&self, from: usize, to: usize) -> bool {
-        self.parted.iter().any(|group| group.contains(&from) && group.contains(&to))
+    pub(crate) fn separates(&self, from: Station, to: Station) -> bool {
+        let silent = |station| matches!(station, Station::Robot(robot) if self.silent.contains(&robot));
+        let apart = match (from, to) {
+            (Station::Robot(one), Station::Robot(other)) => {
+                self.parted.iter().any(|group| group.contains(&one) && group.contains(&other))
+            }
+            (Station::Robot(robot), Station::Base) | (Station::Base, Station::Robot(robot)) => {
+                self.far.contains(&robot)
+            }
+            (Station::Base, Station::Base) => false,
+        };
+        apart || silent(from) || silent(to)
     }
 }
 

@@ -58,12 +58,13 @@ pub struct Wheel {
 }
 
 impl Wheel {
-    /// Turns for `dt` seconds while told `told` m/s, and gives the distance in m.
-    pub fn turn(&mut self, motor: Motor, told: f64, dt: f64) -> f64 {
+    /// Turns for `dt` seconds while told `told` m/s and missing a share of its steps, and gives the distance in m.
+    pub fn turn(&mut self, motor: Motor, told: f64, missing: f64, dt: f64) -> f64 {
         self.speed = motor.next_speed(self.speed, told, dt);
         self.steps += told * dt / METRES_PER_STEP;
-        self.lost += (told - self.speed).abs() * dt / METRES_PER_STEP;
-        self.speed * dt
+        let made = self.speed * (1.0 - missing);
+        self.lost += (told - made).abs() * dt / METRES_PER_STEP;
+        made * dt
     }
 }
 
@@ -77,7 +78,7 @@ mod tests {
     /// The speeds of the next milliseconds.
     fn run(from: f64, told: f64, milliseconds: usize) -> (f64, Wheel) {
         let mut wheel = Wheel { speed: from, ..Wheel::default() };
-        let distance = (0..milliseconds).map(|_| wheel.turn(Motor::HONEST, told, DT)).sum();
+        let distance = (0..milliseconds).map(|_| wheel.turn(Motor::HONEST, told, 0.0, DT)).sum();
         (distance, wheel)
     }
 
@@ -97,6 +98,14 @@ mod tests {
         assert!((wheel.speed - 0.28).abs() < 1e-9);
         // The area between 0.28 and the ramp: 0.2^2 / (2 0.5) m.
         assert!((wheel.lost * METRES_PER_STEP - 0.04).abs() < 2e-4, "{}", wheel.lost * METRES_PER_STEP);
+    }
+
+    #[test]
+    fn missed_steps_are_counted_and_not_made() {
+        let mut wheel = Wheel::default();
+        let distance: f64 = (0..1000).map(|_| wheel.turn(Motor::HONEST, 0.08, 0.25, DT)).sum();
+        assert!((distance - 0.06).abs() < 1e-12, "{distance}");
+        assert!((wheel.lost * METRES_PER_STEP - 0.02).abs() < 1e-12, "{}", wheel.lost);
     }
 
     #[test]

@@ -56,6 +56,8 @@ pub struct World {
     told: Vec<[f64; 2]>,
     /// Share of a wheel's way by which it moves the robot.
     grip: Vec<[f64; 2]>,
+    /// Share of their steps that a robot's motors miss.
+    missing: Vec<f64>,
     histories: Vec<History>,
     touching: BTreeSet<(usize, Thing)>,
     contacts: Vec<Contact>,
@@ -76,6 +78,7 @@ impl World {
             wheels: vec![[Wheel::default(); 2]; count],
             told: vec![[0.0; 2]; count],
             grip: vec![[1.0; 2]; count],
+            missing: vec![0.0; count],
             histories,
             touching: BTreeSet::new(),
             contacts: Vec::new(),
@@ -99,6 +102,13 @@ impl World {
     pub fn set_grip(&mut self, robot: usize, grip: [f64; 2]) {
         if let Some(old) = self.grip.get_mut(robot) {
             *old = grip;
+        }
+    }
+
+    /// From now on a robot's motors miss this share of their steps.
+    pub fn set_missing(&mut self, robot: usize, share: f64) {
+        if let Some(old) = self.missing.get_mut(robot) {
+            *old = share;
         }
     }
 
@@ -167,8 +177,9 @@ impl World {
         let (old, told) = (self.poses[robot], self.told[robot]);
         let [left, right] = &mut self.wheels[robot];
         let [left_grip, right_grip] = self.grip[robot];
-        let left = left_grip * left.turn(self.body.motor, told[0], STEP_SECONDS);
-        let right = right_grip * right.turn(self.body.motor, told[1], STEP_SECONDS);
+        let (missing, motor) = (self.missing[robot], self.body.motor);
+        let left = left_grip * left.turn(motor, told[0], missing, STEP_SECONDS);
+        let right = right_grip * right.turn(motor, told[1], missing, STEP_SECONDS);
         let free = rolled(old, left, right, self.body.half_axle);
         let mut touched = Vec::new();
         let end = self.surroundings().blocked(robot, [old.x, old.y], [free.x, free.y], |thing| touched.push(thing));

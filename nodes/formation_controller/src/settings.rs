@@ -86,8 +86,8 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::double("age.pose", 0.12, "s, the oldest pose that may drive the robot").range(0.001, 10.0),
         P::double("age.information", 0.25, "s, since the robot was seen last: it is carried forward no longer")
             .range(0.001, 10.0),
-        P::double("age.goal", 0.5, "s, silence of /goals after which the robot stops").range(0.001, 10.0),
-        P::double("age.obstacles", 0.5, "s, silence of the mapper after which the robot stops").range(0.001, 10.0),
+        P::double("age.goal", 0.45, "s, silence of /goals after which the robot stops").range(0.001, 10.0),
+        P::double("age.obstacles", 0.45, "s, silence of the mapper after which the robot stops").range(0.001, 10.0),
         P::double("age.leader_state", 0.3, "s, silence after which another robot counts as an obstacle")
             .range(0.001, 10.0),
         P::double("age.team", 1.0, "s, silence of its whole queue after which a follower looks for it (Remark 6.2.1)")

@@ -9,7 +9,7 @@ use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Level, Local, Master, NodeContext, NodeCore,
+    Advertise, Condition, Event, Files, Health, Interface, JumpWatch, Level, Local, Master, NodeContext, NodeCore,
     NodeDescription, NotMaster, Qos, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_msgs::cdr::CdrError;
@@ -65,6 +65,7 @@ pub struct LeaderAssignment {
     pub(crate) targets_refused: u64,
     pub(crate) health: Health,
     wakeup: Option<Steady>,
+    jumps: JumpWatch,
     pub(crate) last_picture: Option<Steady>,
 }
 
@@ -99,6 +100,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         members: Team::default(),
         targets_refused: 0,
         wakeup: None,
+        jumps: JumpWatch::default(),
         last_picture: None,
     }))
 }
@@ -172,6 +174,9 @@ impl NodeCore for LeaderAssignment {
     }
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        if let Some(jump) = self.jumps.look(at) {
+            self.clock_jumped(at, jump, sink);
+        }
         match event {
             Event::Started => {
                 self.started(at, sink);

@@ -92,6 +92,12 @@ impl RunMachine {
         first
     }
 
+    /// The clock was set: the zero of time goes with it (ns). Gives whether there is one.
+    pub fn move_with_clock(&mut self, jump: i64) -> bool {
+        self.t0 = self.t0.map(|t0| RosTime(t0.0.saturating_add(jump)));
+        self.t0.is_some()
+    }
+
     fn enter(&mut self, state: u8, reason: &str) {
         if state == RunState::IDLE || state == RunState::ARMED {
             self.t0 = None;
@@ -143,6 +149,7 @@ mod tests {
         assert!(machine.localised(RosTime(5)));
         assert!(!machine.localised(RosTime(6)));
         assert_eq!(machine.t0(), Some(RosTime(5)));
+        assert!(machine.move_with_clock(-3) && machine.move_with_clock(3));
         machine.request(Request::Stop, Ok(())).unwrap();
         assert_eq!(machine.t0(), Some(RosTime(5)), "the zero of time outlives the stop");
         machine.request(Request::Reset, Ok(())).unwrap();

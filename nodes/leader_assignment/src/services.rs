@@ -120,6 +120,18 @@ impl LeaderAssignment {
         SetFormationResponse { success, message }
     }
 
+    /// Somebody set the wall clock: a run goes on at the age that it has.
+    pub(crate) fn clock_jumped(&mut self, at: Times, jump: i64, sink: &mut dyn Sink) {
+        sink.log(
+            Level::Warn,
+            &format!("the clock jumped by {:.3} s, and with it what a run counts from", 1e-9 * jump as f64),
+        );
+        self.held.since = self.held.since.map(|since| RosTime(since.0.saturating_add(jump)));
+        if self.run.move_with_clock(jump) {
+            self.announce(at, sink);
+        }
+    }
+
     /// Seconds for which the present formation has been moving: since t0, or since it replaced another one.
     pub(crate) fn elapsed(&self, stamp: RosTime) -> f64 {
         let began = self.run.t0().map(|t0| self.held.since.map_or(t0, |since| since.max(t0)));

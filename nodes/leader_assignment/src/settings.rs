@@ -34,7 +34,13 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             .range(0.1, 3600.0),
         P::double("age.link", 0.5, "s, for which a follower may not hear its leader before it follows its goal")
             .range(0.1, 3600.0),
-        P::double("dwell", 1.5, "s, for which robot or link must be good to count again; doubles with each loss")
+        P::double(
+            "dwell.robot",
+            0.75,
+            "s, for which a robot that had quit must be there to join; doubles with each loss",
+        )
+        .range(0.1, 3600.0),
+        P::double("dwell.link", 1.5, "s, for which a link must be good to count again; doubles with each loss")
             .range(0.1, 3600.0),
         P::double("age.target", 0.5, "s, silence of /target after which a formation in its frame stops")
             .range(0.001, 60.0),
@@ -100,7 +106,8 @@ pub(crate) fn team_limits(parameters: &Parameters) -> Result<TeamLimits, ConfigE
     Ok(TeamLimits {
         robot: parameters.f64("age.robot")?,
         link: parameters.f64("age.link")?,
-        dwell: parameters.f64("dwell")?,
+        robot_dwell: parameters.f64("dwell.robot")?,
+        link_dwell: parameters.f64("dwell.link")?,
     })
 }
 

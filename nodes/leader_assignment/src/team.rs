@@ -15,8 +15,10 @@ pub(crate) struct TeamLimits {
     pub(crate) robot: f64,
     /// A follower that has not heard its leader for so long follows its goal.
     pub(crate) link: f64,
-    /// Both must be good again for so long.
-    pub(crate) dwell: f64,
+    /// A robot that has quit must be there for so long.
+    pub(crate) robot_dwell: f64,
+    /// A link that was broken must be good for so long.
+    pub(crate) link_dwell: f64,
 }
 
 /// What one robot's controller, its radio and the localizer say of it.
@@ -58,7 +60,7 @@ impl Team {
 
     /// Brings up to date who of `robots` has quit; gives whether that changed.
     pub(crate) fn judge_presence(&mut self, now: Steady, robots: &[String], limits: TeamLimits) -> bool {
-        let patience = Patience { bad: limits.robot, dwell: limits.dwell };
+        let patience = Patience { bad: limits.robot, dwell: limits.robot_dwell };
         let mut changed = false;
         for robot in robots {
             let known = self.robots.entry(robot.clone()).or_default();
@@ -79,7 +81,7 @@ impl Team {
         // Of a robot that says nothing nobody knows whom it hears.
         let Some((_, hears)) = spoken else { return false };
         let good = hears.iter().any(|name| name == ahead);
-        known.link.update(now, good, Patience { bad: limits.link, dwell: limits.dwell })
+        known.link.update(now, good, Patience { bad: limits.link, dwell: limits.link_dwell })
     }
 
     /// Whether it has quit.

@@ -4,8 +4,8 @@ use crate::settings::{Settings, descriptors};
 use crate::{Conduct, Distances, Route, Step, Verdict, distances, shape_error};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Event, Files, Interface, Level, Local, NodeContext, NodeCore, NodeDescription, Qos, Serve, Sink,
-    StartError, Steady, Subscribe, Times,
+    Advertise, Event, Files, Interface, JumpWatch, Level, Local, NodeContext, NodeCore, NodeDescription, Qos, RosTime,
+    Serve, Sink, StartError, Steady, Subscribe, Times,
 };
 use trench_msgs::Message;
 use trench_msgs::msg::{Goals, LeaderState, RunState, TeamState};
@@ -50,6 +50,7 @@ pub struct Operator {
     /// Seconds since t0 for which the target was led; it stays where it is once the run is over.
     led: f64,
     over: bool,
+    jumps: JumpWatch,
 }
 
 /// The node as processes and the simulator make it.
@@ -83,6 +84,7 @@ fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) ->
         next_target: Steady(0),
         led: 0.0,
         over: false,
+        jumps: JumpWatch::default(),
     }))
 }
 
@@ -187,6 +189,12 @@ impl NodeCore for Operator {
     }
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        // leader_assignment will say so too, in its own time.
+        if let (Some(jump), Some(run)) = (self.jumps.look(at), &mut self.run)
+            && RosTime::from(&run.t0).0 != 0
+        {
+            run.t0 = RosTime(RosTime::from(&run.t0).0.saturating_add(jump)).into();
+        }
         match event {
             Event::Started => (self.next_look, self.next_target) = (at.steady, at.steady),
             Event::Message { port, cdr, .. } => self.take(port, cdr),
@@ -214,7 +222,6 @@ impl NodeCore for Operator {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_core::RosTime;
 
     #[test]
     fn a_line_of_progress() {

@@ -106,7 +106,7 @@ impl OverheadLocalizer {
         let Self { intakes, stream, gather, sightings, .. } = self;
         let Some(intake) = intakes.get_mut(camera) else { return };
         let taken = match gather {
-            None => intake.take(cdr, |stamp| stream.take(source, stamp), sightings),
+            None => intake.take(cdr, |stamp| stream.take(at.steady, source, stamp), sightings),
             Some(gather) => intake.take(cdr, |stamp| gather.wants(camera, stamp).then_some(0.0), sightings),
         };
         let shown = matches!(taken, Ok(Some(_)));
@@ -133,7 +133,7 @@ impl OverheadLocalizer {
     /// A look of several cameras; its frames are counted by exposure.
     fn look(&mut self, at: Times, look: &Look, sink: &mut dyn Sink) {
         let source = Source { sequence: look.number, ..Source::default() };
-        if let Some(interval) = self.stream.take(source, RosTime::from(&look.stamp)) {
+        if let Some(interval) = self.stream.take(at.steady, source, RosTime::from(&look.stamp)) {
             self.step(at, look.stamp, interval, look.number, &look.discs, sink);
         }
         if let Some(gather) = &self.gather {
@@ -145,7 +145,7 @@ impl OverheadLocalizer {
     fn pads(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
         match pads::read(cdr, &self.settings.pad_ids) {
             Ok((stamp, pads)) => {
-                if let Some(interval) = self.stream.take(source, RosTime::from(&stamp)) {
+                if let Some(interval) = self.stream.take(at.steady, source, RosTime::from(&stamp)) {
                     self.tracker.step_pads(interval, &pads);
                     self.told(at, stamp, source.sequence, pads.len(), sink);
                 }

@@ -1,11 +1,11 @@
 //! The stream of frames: their order, gaps and intervals.
 
-use trench_core::{RosTime, Source};
+use trench_core::{RosTime, Source, Steady};
 
 /// What the frames so far say of the stream.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stream {
-    last: Option<(Source, RosTime)>,
+    last: Option<(Source, RosTime, Steady)>,
     /// Frames taken.
     pub(crate) frames: u64,
     /// Frames that never came.
@@ -16,15 +16,18 @@ pub(crate) struct Stream {
 
 /// A clock that runs back this far was set anew, s: less is a frame out of order.
 const SET_BACK: f64 = 1.0;
+/// A clock that ran ahead of the monotonic one by this much between two frames was set anew, s: less may be a bag that is
+/// played fast.
+const SET_AHEAD: f64 = 60.0;
 /// The interval assumed when it cannot be known, s.
 const NOMINAL: f64 = 0.04;
 
 impl Stream {
     /// The time from the previous frame to this one, s (0 for the first); None if the frame is not newer and must be left.
-    pub(crate) fn take(&mut self, source: Source, stamp: RosTime) -> Option<f64> {
+    pub(crate) fn take(&mut self, at: Steady, source: Source, stamp: RosTime) -> Option<f64> {
         let interval = match self.last {
             None => 0.0,
-            Some((last_source, last_stamp)) => {
+            Some((last_source, last_stamp, last_at)) => {
                 let interval = stamp.seconds_since(last_stamp);
                 if interval <= 0.0 && interval > -SET_BACK {
                     self.stale += 1;
@@ -33,10 +36,11 @@ impl Stream {
                 if source.gid == last_source.gid {
                     self.missed += source.sequence.saturating_sub(last_source.sequence).saturating_sub(1);
                 }
-                if interval < 0.0 { NOMINAL } else { interval }
+                let was_set = interval < 0.0 || interval > at.seconds_since(last_at) + SET_AHEAD;
+                if was_set { NOMINAL } else { interval }
             }
         };
-        self.last = Some((source, stamp));
+        self.last = Some((source, stamp, at));
         self.frames += 1;
         Some(interval)
     }
@@ -51,7 +55,7 @@ mod tests {
         let mut stream = Stream::default();
         let mut check = |gid: u8, sequence: u64, milliseconds: i64, expected: Option<f64>, counts: [u64; 3]| {
             let source = Source { gid: [gid; 16], sequence };
-            let interval = stream.take(source, RosTime(1_000_000 * milliseconds));
+            let interval = stream.take(Steady(40_000_000 * sequence), source, RosTime(1_000_000 * milliseconds));
             assert_eq!(interval.map(|seconds| (seconds * 1e6).round() * 1e-6), expected, "frame {sequence}");
             assert_eq!([stream.frames, stream.missed, stream.stale], counts, "frame {sequence}");
         };
@@ -64,5 +68,8 @@ mod tests {
         check(2, 1, 5200, Some(0.04), [4, 2, 2]);
         // The clock was set back.
         check(2, 2, 10, Some(0.04), [5, 2, 2]);
+        // And an hour ahead.
+        check(2, 3, 3_600_050, Some(0.04), [6, 2, 2]);
+        check(2, 4, 3_600_090, Some(0.04), [7, 2, 2]);
     }
 }

@@ -1,11 +1,15 @@
 //! What the bridge says of itself on /diagnostics.
 
 use crate::core::RfBridge;
+use crate::robot::Robot;
 use trench_core::{Condition, Steady};
 use trench_radio::Fault;
 
 /// A dropped message is worth a warning for this long, s.
 const LATELY: f64 = 5.0;
+
+/// A robot that has not been heard for so long is named, s: three of its reports. Its link is down only after `silence`.
+const UNHEARD: f64 = 0.35;
 
 impl RfBridge {
     /// Brings all parts up to date.
@@ -17,38 +21,59 @@ impl RfBridge {
         for (name, count) in self.decoder.errors().iter().chain(self.errors.iter()) {
             self.health.value("serial port", name, count);
         }
-        let (condition, text) = match (self.stop.active(), self.driving(now)) {
-            (true, _) => (Condition::Error, "emergency stop: call ~/reset"),
-            (false, false) if self.stop.reached_for(now) => {
-                (Condition::Warn, "resting: a new publisher of /emergency_stop has not spoken yet")
-            }
-            (false, true) => (Condition::Ok, "driving"),
-            (false, false) => (Condition::Ok, "not running: commands are zero"),
-        };
+        let (condition, text) = self.of_commands(now);
         self.health.set("commands", condition, text);
         self.health.value("commands", "expired", self.robots.iter().map(|robot| robot.expired).sum::<u64>());
-        let silent: Vec<&str> = self
-            .robots
-            .iter()
-            .filter(|robot| !robot.monitor.up(now, self.tuning.silence))
-            .map(|robot| robot.name.as_str())
-            .collect();
-        let weak: Vec<&str> = self
-            .robots
-            .iter()
-            .filter(|robot| robot.monitor.report().is_some_and(|report| report.fault.0 & Fault::LOW_BATTERY.0 != 0))
-            .map(|robot| robot.name.as_str())
-            .collect();
-        match (silent.is_empty(), weak.is_empty()) {
-            (true, true) => self.health.set("links", Condition::Ok, "all robots are heard"),
-            (false, _) => self.health.set("links", Condition::Warn, format!("not heard: {}", silent.join(", "))),
-            (true, false) => self.health.set("links", Condition::Warn, format!("low battery: {}", weak.join(", "))),
-        }
+        let (condition, text) = self.of_links(now);
+        self.health.set("links", condition, text);
         let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
         let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();
         self.health.value("links", "relays", relays.join(", "));
         if self.refused_at.is_none_or(|at| now.seconds_since(at) > LATELY) {
             self.health.set("messages", Condition::Ok, "none was dropped lately");
         }
+    }
+
+    fn of_commands(&self, now: Steady) -> (Condition, String) {
+        if self.stop.active() {
+            return (Condition::Error, "emergency stop: call ~/reset".to_owned());
+        }
+        if !self.driving(now) {
+            return if self.stop.reached_for(now) {
+                (Condition::Warn, "resting: a new publisher of /emergency_stop has not spoken yet".to_owned())
+            } else {
+                (Condition::Ok, "not running: commands are zero".to_owned())
+            };
+        }
+        // A controller that rests says so in every command: silence is a controller that died or a network that is cut.
+        let silent = self.named(|robot| !robot.expected(now));
+        if silent.is_empty() {
+            (Condition::Ok, "driving".to_owned())
+        } else {
+            (Condition::Warn, format!("nobody commands: {silent}"))
+        }
+    }
+
+    fn of_links(&self, now: Steady) -> (Condition, String) {
+        let reports =
+            |robot: &Robot, fault: Fault| robot.monitor.report().is_some_and(|report| report.fault.0 & fault.0 != 0);
+        let problems = [
+            ("not heard", self.named(|robot| !robot.monitor.up(now, UNHEARD.min(self.tuning.silence)))),
+            ("low battery", self.named(|robot| reports(robot, Fault::LOW_BATTERY))),
+            ("missed steps", self.named(|robot| reports(robot, Fault::MISSED_STEPS))),
+            ("poor link", self.named(|robot| robot.monitor.is_poor())),
+        ];
+        let named = problems.iter().filter(|(_, robots)| !robots.is_empty());
+        let texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
+        match texts.as_slice() {
+            [] => (Condition::Ok, "all robots are heard".to_owned()),
+            texts => (Condition::Warn, texts.join("; ")),
+        }
+    }
+
+    fn named(&self, concerns: impl Fn(&Robot) -> bool) -> String {
+        let robots: Vec<&str> =
+            self.robots.iter().filter(|robot| concerns(robot)).map(|robot| robot.name.as_str()).collect();
+        robots.join(", ")
     }
 }

@@ -10,6 +10,10 @@ use trench_radio::{Freshness, Stale, Telemetry};
 /// Loss is taken over this time, s.
 const WINDOW: f64 = 1.0;
 
+/// More than this share of lost packets is named, if so many were sent.
+const POOR: f64 = 0.2;
+const ENOUGH: u64 = 10;
+
 /// Weight of a new round trip in the filtered one.
 const SMOOTHING: f64 = 0.2;
 
@@ -69,9 +73,19 @@ impl Monitor {
 
     /// The share of packets that the robot missed lately, 0 to 1.
     fn loss(&self) -> f64 {
-        let (Some(first), Some(last)) = (self.window.front(), self.window.back()) else { return 0.0 };
-        let (received, sent) = (last.1.wrapping_sub(first.1), last.2.saturating_sub(first.2));
-        if sent == 0 { 0.0 } else { (1.0 - f64::from(received) / sent as f64).clamp(0.0, 1.0) }
+        let (received, sent) = self.lately();
+        if sent == 0 { 0.0 } else { (1.0 - received as f64 / sent as f64).clamp(0.0, 1.0) }
+    }
+
+    /// Packets that the robot received lately, of those sent.
+    fn lately(&self) -> (u64, u64) {
+        let (Some(first), Some(last)) = (self.window.front(), self.window.back()) else { return (0, 0) };
+        (last.1.wrapping_sub(first.1).into(), last.2.saturating_sub(first.2))
+    }
+
+    /// Whether it loses more than a link in order does by chance.
+    pub(crate) fn is_poor(&self) -> bool {
+        self.lately().1 >= ENOUGH && self.loss() > POOR
     }
 
     /// The message; `hears` are the names of the robots that it hears.

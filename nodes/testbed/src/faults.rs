@@ -8,12 +8,28 @@
 
 use trench_config::{ConfigError, yaml, yaml::Map};
 use trench_optics::Pose2;
-use trench_sim::{Fault, FaultKind, Faults, FrameFault};
+use trench_sim::{Fault, FaultKind, Faults, FrameFault, Intrusion};
 
 /// Kinds with a name in files.
-const KINDS: [&str; 13] = [
-    "slip", "carried", "battery", "silent", "parted", "loss", "covered", "stopped", "frozen", "black", "half", "late",
+const KINDS: [&str; 18] = [
+    "slip",
+    "carried",
+    "battery",
+    "silent",
+    "parted",
+    "loss",
+    "covered",
+    "stopped",
+    "frozen",
+    "black",
+    "half",
+    "late",
     "every",
+    "far",
+    "forged",
+    "replayed",
+    "corrupted",
+    "missed",
 ];
 
 /// Reads the text of such a file; `file` names it in errors.
@@ -49,6 +65,11 @@ fn fault(map: &Map<'_>, names: &[String]) -> Result<Fault, ConfigError> {
         }
         "silent" => FaultKind::Silent { robots: robots(map, names)? },
         "parted" => FaultKind::Parted { robots: robots(map, names)? },
+        "far" => FaultKind::Far { robots: robots(map, names)? },
+        "forged" => FaultKind::Intruder(Intrusion::Forged),
+        "replayed" => FaultKind::Intruder(Intrusion::Replayed),
+        "corrupted" => FaultKind::Intruder(Intrusion::Corrupted),
+        "missed" => FaultKind::Missed { robots: robots(map, names)?, share: share(map, "share")? },
         "loss" => FaultKind::Loss { loss: share(map, "loss")? },
         "covered" => FaultKind::Covered { robots: robots(map, names)? },
         "stopped" => FaultKind::Frames(FrameFault::Stopped),
@@ -117,6 +138,11 @@ mod tests {
             ("half", ""),
             ("late", "delay: 0.2"),
             ("every", "frames: 6"),
+            ("far", "robots: [robot2]"),
+            ("forged", ""),
+            ("replayed", ""),
+            ("corrupted", ""),
+            ("missed", "robots: [robot1], share: 0.2"),
         ];
         assert_eq!(rest.map(|(kind, _)| kind), KINDS);
         for (kind, rest) in rest {

@@ -1,5 +1,7 @@
 //! Bridge and test bed together: twists in, robots that move, and the many ways in which they must stop.
 
+#[path = "cases/air.rs"]
+mod air;
 mod common;
 #[path = "cases/relays.rs"]
 mod relays;

@@ -11,7 +11,6 @@ mod network;
 
 use common::{Island, Running};
 use network::{Host, World};
-use std::process::Command;
 
 /// Two hosts and how their nodes reach each other.
 struct Pair {
@@ -181,19 +180,4 @@ macro_rules! on_every_network {
 on_every_network! {
     nodes_of_two_hosts_understand_each_other 40
     the_clock_of_the_other_host_is_ros_time 42
-}
-
-/// What it takes to run a command on another host: `ip netns exec` around it, its variables kept.
-impl Host {
-    fn move_to(&self, command: &Command) -> Command {
-        let mut moved = self.command(command.get_program());
-        moved.args(command.get_args());
-        for (name, value) in command.get_envs() {
-            match value {
-                Some(value) => moved.env(name, value),
-                None => moved.env_remove(name),
-            };
-        }
-        moved
-    }
 }

@@ -62,8 +62,21 @@ impl World {
 }
 
 impl Host {
+    /// A command on this host instead of here, its variables kept.
+    pub(crate) fn move_to(&self, command: &Command) -> Command {
+        let mut moved = self.command(command.get_program());
+        moved.args(command.get_args());
+        for (name, value) in command.get_envs() {
+            match value {
+                Some(value) => moved.env(name, value),
+                None => moved.env_remove(name),
+            };
+        }
+        moved
+    }
+
     /// A program on this host.
-    pub(crate) fn command(&self, program: &OsStr) -> Command {
+    fn command(&self, program: &OsStr) -> Command {
         let mut command = Command::new("ip");
         command.args(["netns", "exec", &self.namespace]).arg(program);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());

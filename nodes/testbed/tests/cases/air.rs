@@ -1,0 +1,81 @@
+//! Bridge and test bed together: what is wrong on the air or with a motor, and how the bridge names it.
+
+use crate::common::{Loop, Texts};
+use trench_config::ParameterValue::String as Text;
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
+use trench_msgs::msg::RunState;
+
+/// A file with a fault from the first second on.
+macro_rules! fault {
+    ($fault:literal) => {
+        concat!("faults:\n- {from: 1.0, to: 100.0, ", $fault, "}\n")
+    };
+}
+
+/// Two robots under way on a bed with these faults; with `key` their packets carry tags.
+fn with_faults(faults: &'static str, key: bool) -> Loop {
+    let files = Texts(vec![("faults", faults), ("key", "000102030405060708090a0b0c0d0e0f")]);
+    let key = [("key_file", Text("key".to_owned()))].into_iter().filter(|_| key);
+    let mut testbed = vec![("faults_file", Text("faults".to_owned()))];
+    testbed.extend(key.clone());
+    let bridge: Vec<_> = key.collect();
+    let mut both = Loop::new(&[0.4, 0.5, 0.0, 0.4, 1.2, 0.0], &bridge, &testbed, &files);
+    both.run_state(RunState::RUNNING);
+    both.run(1000);
+    both
+}
+
+fn says(both: &Loop, part: &str) -> String {
+    let all: Vec<DiagnosticArray> = both.bridge.published("/diagnostics");
+    let mut texts = all.iter().flat_map(|array| &array.status).filter(|status| status.name.ends_with(part));
+    texts.next_back().map(|status| status.message.clone()).unwrap_or_default()
+}
+
+#[test]
+fn nobody_without_the_key_drives_a_robot() {
+    for fault in [fault!("kind: forged"), fault!("kind: replayed")] {
+        let mut both = with_faults(fault, true);
+        both.drive(60, 2, 0.03, 0.0);
+        let way = both.place(1).0 - 0.4;
+        assert!((0.045..0.065).contains(&way), "{fault}: {way} m of 0.06");
+    }
+    let mut open = with_faults(fault!("kind: forged"), false);
+    open.drive(60, 2, 0.03, 0.0);
+    assert!(open.place(1).0 - 0.4 > 0.1, "without a key robots obey anyone: the intruder is no empty threat");
+}
+
+#[test]
+fn a_link_that_loses_much_is_named() {
+    let mut both = with_faults(fault!("kind: corrupted"), true);
+    both.drive(60, 2, 0.03, 0.0);
+    assert!(says(&both, "links").contains("poor link: robot1, robot2"), "{}", says(&both, "links"));
+}
+
+#[test]
+fn motors_that_miss_steps_are_named() {
+    let mut both = with_faults(fault!("kind: missed, robots: [robot2], share: 0.5"), false);
+    both.drive(60, 2, 0.06, 0.0);
+    let (one, other) = (both.place(1).0 - 0.4, both.place(2).0 - 0.4);
+    assert!((0.45..0.55).contains(&(other / one)), "{one} {other}");
+    assert!(says(&both, "links").contains("missed steps: robot2"), "{}", says(&both, "links"));
+}
+
+#[test]
+fn neighbours_carry_to_who_is_far() {
+    let mut both = with_faults(fault!("kind: far, robots: [robot2]"), false);
+    both.drive(60, 2, 0.03, 0.0);
+    let before = both.place(2).0;
+    both.drive(60, 2, 0.03, 0.0);
+    assert!(both.place(2).0 > before + 0.04, "through robot1");
+}
+
+#[test]
+fn whom_nobody_commands_is_named() {
+    let mut both = with_faults(fault!("kind: loss, loss: 0.0"), false);
+    both.drive(10, 2, 0.03, 0.0);
+    assert_eq!(says(&both, "commands"), "driving");
+    both.drive(15, 1, 0.03, 0.0);
+    assert_eq!(says(&both, "commands"), "nobody commands: robot2");
+    both.drive(15, 2, 0.03, 0.0);
+    assert_eq!(says(&both, "commands"), "driving");
+}

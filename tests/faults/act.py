@@ -1,0 +1,144 @@
+"""Does what a fault of the matrix says, from outside the nodes; each gives when it began and was over (s, wall clock)."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import inject
+from hosts import BASE
+from launched import PATIENCE, Launched
+
+
+def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
+    """Whatever the fault says."""
+    if "kill" in fault:
+        return kill(fault, launched)
+    if "double" in fault:
+        return double(fault, launched)
+    if "pause" in fault:
+        return pause(fault, launched, ears)
+    if "network" in fault:
+        return network(fault, launched)
+    if "second" in fault:
+        return second(fault, launched)
+    if "serial" in fault:
+        return serial(fault, launched)
+    if "nothing" in fault:
+        # What it is about was done before the run.
+        return time.time(), time.time()
+    if "fill" in fault:
+        return fill(launched)
+    if "clock" in fault:
+        return clock(fault, launched)
+    began = inject.INJECTIONS[fault["publish"]](ears, fault["for"])
+    return began, time.time()
+
+
+def kill(fault: dict, launched: Launched) -> tuple[float, float]:
+    """kill -9; over when the victim lives again."""
+    others = list(launched.processes().values())
+    before = launched.all_logs().count("process started with pid")
+    os.kill(launched.pid_of(fault["kill"]), signal.SIGKILL)
+    began = time.time()
+    if fault.get("ends"):
+        fault["alive_after"] = outlive(others)
+    elif not fault.get("gone"):
+        deadline = time.monotonic() + 5.0
+        while launched.all_logs().count("process started with pid") <= before and time.monotonic() < deadline:
+            time.sleep(0.02)
+        return began, time.time()
+    return began, began
+
+
+def double(fault: dict, launched: Launched) -> tuple[float, float]:
+    """The same command line once more: it must be refused."""
+    began = time.time()
+    pid = launched.pid_of(fault["double"])
+    line = Path(f"/proc/{pid}/cmdline").read_bytes().decode().strip("\0").split("\0")
+    second = launched.start(BASE, Path(line[0]).name, *line[1:])
+    try:
+        fault["code"] = second.wait(3.0)
+    except subprocess.TimeoutExpired:
+        second.kill()
+        fault["code"] = second.wait()
+    return began, time.time()
+
+
+def second(fault: dict, launched: Launched) -> tuple[float, float]:
+    """The same command line once more on another host, where no lease is held, for a while."""
+    pid = launched.pid_of(fault["second"])
+    line = Path(f"/proc/{pid}/cmdline").read_bytes().decode().strip("\0").split("\0")
+    other = launched.start(fault["host"], Path(line[0]).name, *line[1:])
+    began = time.time()
+    time.sleep(fault["for"])
+    other.send_signal(signal.SIGINT)
+    other.wait(PATIENCE)
+    return began, time.time()
+
+
+def serial(fault: dict, launched: Launched) -> tuple[float, float]:
+    """The serial line is out of its socket for a while."""
+    began = time.time()
+    launched.line.say("out")
+    time.sleep(fault["for"])
+    launched.line.say("in")
+    return began, time.time()
+
+
+def fill(launched: Launched) -> tuple[float, float]:
+    """The disk of the recorder is full."""
+    began = time.time()
+    with open(launched.disk / "filler", "wb", buffering=0) as filler:
+        try:
+            while True:
+                filler.write(bytes(4096))
+        except OSError:
+            pass
+    return began, time.time()
+
+
+def clock(fault: dict, launched: Launched) -> tuple[float, float]:
+    """The wall clock of a host jumps by so many hours, and stays there."""
+    now = time.time()
+    launched.set_clock(fault.get("host", BASE), fault["clock"])
+    return now, now
+
+
+def pause(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
+    """SIGSTOP for a while, in the middle of which the formation may change its size."""
+    pid = launched.pid_of(fault["pause"])
+    began = time.time()
+    os.kill(pid, signal.SIGSTOP)
+    if "scale" in fault:
+        time.sleep(0.5 * fault["for"])
+        inject.scale_formation(ears, fault["scale"])
+    time.sleep(max(0.0, began + fault["for"] - time.time()))
+    os.kill(pid, signal.SIGCONT)
+    return began, time.time()
+
+
+def network(fault: dict, launched: Launched) -> tuple[float, float]:
+    """Bad links of hosts for a while."""
+    began = time.time()
+    launched.hosts.change(fault["hosts"], fault["network"])
+    time.sleep(fault["for"])
+    launched.hosts.change(fault["hosts"], {})
+    return began, time.time()
+
+
+def lives(pid: int) -> bool:
+    """Whether a process runs: one that has ended and waits for its parent does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def outlive(pids: list[int]) -> float:
+    """How long the last of these lives on, s; gives up after ten."""
+    begun = time.monotonic()
+    while any(map(lives, pids)) and time.monotonic() < begun + 10.0:
+        time.sleep(0.01)
+    return time.monotonic() - begun

@@ -1,0 +1,216 @@
+"""A formation as processes, on this host or on several, and the recorder whose bag is judged."""
+
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from hosts import BASE, GATE, Hosts
+
+ROOT = Path(__file__).resolve().parents[2]
+# Nothing that a run waits for takes longer, s.
+PATIENCE = 60.0
+ROBOTS = ["robot1", "robot2", "robot3", "robot4"]
+
+
+class Line:
+    """A serial line that can be unplugged (line.py)."""
+
+    def __init__(self, far: Path, near: Path):
+        program = Path(__file__).with_name("line.py")
+        command = [sys.executable, str(program), str(far), str(near)]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.process.stdout.readline()
+
+    def say(self, word: str) -> None:
+        """`out` or `in`."""
+        self.process.stdin.write(word + "\n")
+        self.process.stdin.flush()
+        self.process.stdout.readline()
+
+    def close(self) -> None:
+        """The line is gone."""
+        self.process.stdin.close()
+        self.process.wait(PATIENCE)
+
+
+class Launched:
+    """A formation with a domain, shared memory, state folders and serial port of its own."""
+
+    def __init__(self, run: dict, binaries: Path, folder: Path, seed: int):
+        self.folder, self.binaries = folder, binaries
+        self.hosts = Hosts(run["hosts"], ROBOTS, seed) if "hosts" in run else None
+        self.launchers: dict[str, subprocess.Popen] = {}
+        self.recorder, self.line, self.disk = None, None, None
+        self.clocks = run.get("clocks", False)
+        self.own_bag = folder / "own-bag"
+        try:
+            self._start(run, seed)
+        except BaseException:
+            self.end()
+            raise
+
+    def _start(self, run: dict, seed: int) -> None:
+        if self.hosts and self.hosts.kind == "zenoh":
+            self.launch(GATE, "router")
+        bed = [fault["bed"] for fault in run["faults"] if "bed" in fault]
+        faults = self.folder / "faults.yaml"
+        faults.write_text(yaml.safe_dump({"faults": bed}))
+        if run.get("line"):
+            self.line = Line(self.folder / "port", self.folder / "plug")
+        if self.clocks:
+            self._make_clocks()
+        if "disk" in run:
+            self.disk = self.folder / "disk"
+            self.disk.mkdir()
+            subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={run['disk']}", "tmpfs", str(self.disk)], check=True)
+            self.own_bag = self.disk / "own-bag"
+        arguments = run.get("arguments", {}) | {
+            "port": str(self.folder / "port"),
+            "bag": str(self.own_bag),
+            "seed": str(seed),
+            **({"faults": str(faults)} if bed else {}),
+            **({"key": str(self._make_key())} if run.get("key") else {}),
+            **({"bridge_port": str(self.folder / "plug")} if self.line else {}),
+            **({"controllers": "false"} if self.hosts else {}),
+        }
+        self.recorder = self.start(
+            BASE, "bag_recorder", "--ros-args", "-r", "__node:=judge", "-p", f"output:={self.folder / 'bag'}",
+            "-p", f"robots:=[{', '.join(ROBOTS)}]", true_clock=True,
+        )
+        self.launch(BASE, run["launch"], **arguments)
+        if self.hosts:
+            for robot in ROBOTS:
+                self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
+
+    def launch(self, host: str, file: str, **arguments: str) -> None:
+        """Starts a launch file on a host."""
+        self.launchers[host] = self.start(
+            host, "trench", "launch", str(ROOT / "launch" / f"{file}.launch.yaml"),
+            "--run-dir", str(self.folder / "launch" / host), *(f"{name}:={value}" for name, value in arguments.items()),
+        )
+
+    def environment(self, host: str, true_clock: bool = False) -> dict[str, str]:
+        """Of a process on a host."""
+        own = {"TRENCH_SHM_PREFIX": self.shared_memory()} if self.hosts is None else self.hosts.environment(host)
+        own |= {"TRENCH_STATE_DIR": str(self.folder / "state" / host), "PATH": f"{self.binaries}:{os.environ['PATH']}"}
+        if self.clocks and not true_clock:
+            own |= {"LD_PRELOAD": str(self.folder / "wall_clock.so"), "WALL_CLOCK": str(self.folder / f"{host}.clock")}
+        return os.environ | own
+
+    def _make_key(self) -> Path:
+        path = self.folder / "key"
+        path.touch(mode=0o600)
+        path.write_text("000102030405060708090a0b0c0d0e0f\n", encoding="ascii")
+        return path
+
+    def _make_clocks(self) -> None:
+        library, source = self.folder / "wall_clock.so", Path(__file__).with_name("wall_clock.c")
+        subprocess.run(["cc", "-shared", "-fPIC", "-O2", "-o", str(library), str(source), "-ldl"], check=True)
+        for host in [BASE, *ROBOTS]:
+            self.set_clock(host, 0.0)
+
+    def set_clock(self, host: str, hours: float) -> None:
+        """How far the wall clock of a host is off from now on."""
+        # Written in place: processes have it in their memory.
+        path = self.folder / f"{host}.clock"
+        with open(path, "r+b" if path.exists() else "wb") as clock:
+            clock.write(struct.pack("<q", int(hours * 3.6e12)))
+
+    def start(self, host: str, program: str, *arguments: str, true_clock: bool = False) -> subprocess.Popen:
+        """Starts a program of ours on a host."""
+        command = [*(self.hosts.command(host) if self.hosts else []), str(self.binaries / program), *arguments]
+        with open(self.folder / f"{host}-{program}.log", "a", encoding="utf-8") as log:
+            return subprocess.Popen(command, env=self.environment(host, true_clock), stdout=log, stderr=log, cwd=ROOT)
+
+    def shared_memory(self) -> str:
+        """With what the names of its shared memory begin."""
+        return f"tf{os.getpid()}"
+
+    def log(self, host: str = BASE) -> str:
+        """What the launcher of a host says so far."""
+        path = self.folder / "launch" / host / "log" / "launch.log"
+        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+
+    def all_logs(self) -> str:
+        """What all launchers say."""
+        return "\n".join(self.log(host) for host in self.launchers)
+
+    def processes(self) -> dict[str, int]:
+        """Label of each process, behind its host, and its latest pid."""
+        return {
+            f"{host}:{label}": int(pid)
+            for host in self.launchers
+            for label, pid in re.findall(r"\[([\w/.-]+)\]: process started with pid \[(\d+)\]", self.log(host))
+        }
+
+    def pid_of(self, victim: str) -> int:
+        """Of `overhead_localizer`, `robot2/formation_controller` or `router`."""
+        if victim == "launcher":
+            return self.launchers[BASE].pid
+        *namespace, program = victim.split("/")
+        for label, pid in self.processes().items():
+            # What is not a program of its own is known by its name in the launch file.
+            if label.partition(":")[2].rpartition("-")[0] == victim:
+                return pid
+            try:
+                line = Path(f"/proc/{pid}/cmdline").read_bytes().decode(errors="replace").split("\0")
+            except OSError:
+                continue
+            if Path(line[0]).name == program and all(f"__ns:=/{name}" in line for name in namespace):
+                return pid
+        raise LookupError(f"no process {victim}")
+
+    def memory(self) -> dict[str, int]:
+        """Resident bytes of each process, by pid and label."""
+        result = {}
+        for label, pid in self.processes().items():
+            try:
+                pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
+            except (OSError, IndexError):
+                continue
+            result[f"{label} {pid}"] = pages * os.sysconf("SC_PAGE_SIZE")
+        return result
+
+    def kill(self) -> None:
+        """kill -9 of everything at once, as when the machine runs out of memory: nobody tidies up."""
+        for pid in [*self.processes().values(), *(launcher.pid for launcher in self.launchers.values()), self.recorder.pid]:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        for process in [*self.launchers.values(), self.recorder]:
+            process.wait(PATIENCE)
+
+    def wait(self) -> int:
+        """Waits for the base station's launch to end; gives its exit code."""
+        launcher = self.launchers[BASE]
+        try:
+            return launcher.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            launcher.send_signal(signal.SIGINT)
+            return launcher.wait(PATIENCE)
+
+    def end(self) -> None:
+        """Ends whatever still runs, and forgets what it shared."""
+        left = [*self.launchers.values(), *([self.recorder] if self.recorder else [])]
+        for process in left:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        for process in left:
+            process.wait(PATIENCE)
+        if self.line:
+            self.line.close()
+        if self.disk:
+            shutil.copytree(self.own_bag, self.folder / "own-bag", dirs_exist_ok=True)
+            subprocess.run(["umount", str(self.disk)], check=True)
+        if self.hosts:
+            self.hosts.close()
+        for file in Path("/dev/shm").glob(f"{self.shared_memory()}*"):
+            file.unlink(missing_ok=True)
