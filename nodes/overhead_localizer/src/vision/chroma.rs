@@ -133,6 +133,10 @@ impl Classifier {
 /// R + G - 2 B of a pixel in white light.
 #[inline]
 pub(super) fn chroma<const RED: usize>(pixel: [u8; 3], weights: Weights) -> i32 {
+    if weights == Weights::NEUTRAL {
+        // The same number in few steps.
+        return i32::from(pixel[RED]) + i32::from(pixel[1]) - 2 * i32::from(pixel[2 - RED]);
+    }
     let (red, blue) = (weighted(pixel[RED], weights.red), weighted(pixel[2 - RED], weights.blue));
     (red + UNIT * i32::from(pixel[1]) - 2 * blue) / UNIT
 }
