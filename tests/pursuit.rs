@@ -71,29 +71,43 @@ fn two_pursuits_are_equal_byte_for_byte() {
     assert_eq!(run(), run());
 }
 
+/// The column under the profile chain.yaml with one setting replaced by another.
+fn column_with(setting: &str, other: &str, arguments: &[(&str, &str)]) -> Finished {
+    let profile = std::fs::read_to_string(root().join("config/profiles/chain.yaml")).unwrap();
+    assert_eq!(profile.matches(setting).count(), 1, "{setting}");
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["launch", "config/profiles"] {
+        let target = folder.path().join(name);
+        std::fs::create_dir_all(&target).unwrap();
+        for file in std::fs::read_dir(root().join(name)).unwrap() {
+            let file = file.unwrap().path();
+            std::fs::copy(&file, target.join(file.file_name().unwrap())).unwrap();
+        }
+    }
+    for name in ["cameras", "formations", "robots", "worlds"] {
+        let link = folder.path().join("config").join(name);
+        std::os::unix::fs::symlink(root().join("config").join(name), link).unwrap();
+    }
+    std::fs::write(folder.path().join("config/profiles/other.yaml"), profile.replace(setting, other)).unwrap();
+    let arguments = [&[("profile", "other")], arguments].concat();
+    support::drive_file(&folder.path().join("launch/column.launch.yaml"), &arguments)
+}
+
 /// Every law on the honest bed: the column forms up on its segment, at rest and moving.
 #[test]
 fn every_dynamic_law_forms_the_column() {
-    let profile = std::fs::read_to_string(root().join("config/profiles/chain.yaml")).unwrap();
     for law in ["goal", "goal_damped", "goal_at_rest", "zoned", "nearest", "chain", "queue"] {
-        let folder = tempfile::tempdir().unwrap();
-        for name in ["launch", "config/profiles"] {
-            let target = folder.path().join(name);
-            std::fs::create_dir_all(&target).unwrap();
-            for file in std::fs::read_dir(root().join(name)).unwrap() {
-                let file = file.unwrap().path();
-                std::fs::copy(&file, target.join(file.file_name().unwrap())).unwrap();
-            }
-        }
-        for name in ["cameras", "formations", "robots", "worlds"] {
-            let link = folder.path().join("config").join(name);
-            std::os::unix::fs::symlink(root().join("config").join(name), link).unwrap();
-        }
-        let text = profile.replace("law: chain", &format!("law: {law}"));
-        std::fs::write(folder.path().join("config/profiles/other.yaml"), text).unwrap();
-        let file = folder.path().join("launch/column.launch.yaml");
-        let arguments = [("profile", "other"), ("tolerance", "0.07"), ("duration", "50.0")];
-        let finished = support::drive_file(&file, &arguments);
+        let arguments = [("tolerance", "0.07"), ("duration", "50.0")];
+        let finished = column_with("law: chain", &format!("law: {law}"), &arguments);
         stands_without_contact(&finished, law);
+    }
+}
+
+/// What of the segment robots ahead take: nothing, where they have come, or where they mean to stand.
+#[test]
+fn robots_that_tell_their_places_form_the_column() {
+    for encroaching in ["nothing", "obstacles", "places"] {
+        let finished = column_with("encroaching: robots", &format!("encroaching: {encroaching}"), &[]);
+        stands_without_contact(&finished, encroaching);
     }
 }

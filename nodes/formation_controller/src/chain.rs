@@ -45,16 +45,15 @@ impl Tick {
                 // Those farther ahead only matter when they come near: one that is silent the filter sees then.
                 continue;
             };
-            chain.places.push(ahead.place_in(map_from_segment));
             if leads {
                 chain.leader = Some(ahead);
             } else {
                 chain.others.push(ahead.leader.state);
+                chain.places.push(ahead.place_in(map_from_segment));
             }
         }
-        if chain.leader.is_none() {
-            return Err(Hold::NoLeader(member.leader.clone()));
-        }
+        let leader = chain.leader.ok_or_else(|| Hold::NoLeader(member.leader.clone()))?;
+        chain.places.push(leader.place_in(map_from_segment));
         Ok(chain)
     }
 

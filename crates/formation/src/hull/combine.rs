@@ -4,7 +4,6 @@
 //! combined hull may come near to what neither member is near to. The fixpoint is unique, as hulls only grow, so the
 //! result depends on the set of obstacles alone.
 use super::{HullError, Shape, shape::length};
-use std::collections::BTreeMap;
 
 /// An obstacle with its name.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,8 +60,9 @@ pub fn combine_unless(
     let single = |(index, obstacle): (u32, &&Obstacle)| Group { members: vec![index], shape: obstacle.shape.clone() };
     let mut groups: Vec<Group> = (0..).zip(&sorted).map(single).collect();
     let mut slots: Vec<Slot> = (0..).zip(&groups).map(|(index, group)| Slot::of(index, group)).collect();
-    sort(&mut slots);
-    while merge_once(&mut groups, &mut slots, &sorted, clearance, &adjoin) {}
+    let bands = Bands::of(&slots, clearance);
+    bands.sort(&mut slots);
+    while merge_once(&mut groups, &mut slots, &bands, &sorted, clearance, &adjoin) {}
     let mut lives = vec![false; groups.len()];
     slots.iter().for_each(|slot| lives[slot.group] = true);
     let named = |group: Group| {
@@ -71,7 +71,8 @@ pub fn combine_unless(
     };
     let living = groups.into_iter().zip(lives).filter(|(_, lives)| *lives);
     let mut combined: Vec<ApparentObstacle> = living.map(|(group, _)| named(group)).collect();
-    combined.sort_unstable_by_key(|obstacle| obstacle.id);
+    // Those that stayed alone are in order already, which a stable sort makes use of.
+    combined.sort_by_key(|obstacle| obstacle.id);
     Ok(combined)
 }
 
@@ -79,30 +80,71 @@ pub fn combine_unless(
 struct Slot {
     low: [f64; 2],
     high: [f64; 2],
+    band: usize,
     /// Whether the group was formed in the last round: only then can it have new neighbours.
     fresh: bool,
     group: usize,
 }
 
-/// From left to right.
-fn sort(slots: &mut [Slot]) {
-    slots.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]).then(a.group.cmp(&b.group)));
+/// Horizontal bands: a slot is in that of its lower side.
+struct Bands {
+    origin: f64,
+    /// m.
+    height: f64,
+    count: usize,
+}
+
+impl Bands {
+    /// As high as the highest slot with the clearance, but no more of them than there are slots.
+    fn of(slots: &[Slot], clearance: f64) -> Self {
+        let lows = slots.iter().map(|slot| slot.low[1]);
+        let (origin, last) =
+            lows.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), low| (least.min(low), most.max(low)));
+        let highest = slots.iter().map(|slot| slot.high[1] - slot.low[1]).fold(0.0, f64::max);
+        let count = slots.len().max(1);
+        let height = (highest + clearance).max((last - origin) / count as f64).max(f64::MIN_POSITIVE);
+        Self { origin, height, count }
+    }
+
+    fn at(&self, y: f64) -> usize {
+        (((y - self.origin) / self.height).max(0.0) as usize).min(self.count - 1)
+    }
+
+    /// From left to right in each band.
+    fn sort(&self, slots: &mut [Slot]) {
+        slots.iter_mut().for_each(|slot| slot.band = self.at(slot.low[1]));
+        slots.sort_by(|a, b| a.band.cmp(&b.band).then(a.low[0].total_cmp(&b.low[0])).then(a.group.cmp(&b.group)));
+    }
+
+    /// Where each band begins among sorted slots, and where the last one ends.
+    fn starts(&self, slots: &[Slot]) -> Vec<usize> {
+        let mut starts = vec![0; self.count + 1];
+        for slot in slots {
+            starts[slot.band + 1] += 1;
+        }
+        for band in 0..self.count {
+            starts[band + 1] += starts[band];
+        }
+        starts
+    }
 }
 
 /// Joins all groups that are near each other now; whether there were any.
 fn merge_once(
     groups: &mut Vec<Group>,
     slots: &mut Vec<Slot>,
+    bands: &Bands,
     obstacles: &[&Obstacle],
     clearance: f64,
     adjoin: &impl Fn(u32, u32) -> bool,
 ) -> bool {
+    let starts = bands.starts(slots);
     let widest = slots.iter().map(|slot| slot.high[0] - slot.low[0]).fold(0.0, f64::max);
     let mut parents: Vec<usize> = (0..groups.len()).collect();
     let mut merged = false;
     let mut meet = |a: &Slot, b: &Slot| {
-        let apart = (a.low[1] - b.high[1]).max(b.low[1] - a.high[1]);
-        if apart >= clearance || (a.low[0] - b.high[0]).max(b.low[0] - a.high[0]) >= clearance {
+        let apart = |axis: usize| (a.low[axis] - b.high[axis]).max(b.low[axis] - a.high[axis]);
+        if !(a.fresh || b.fresh) || apart(1) >= clearance || apart(0) >= clearance {
             return;
         }
         let (first, second) = (root(&mut parents, a.group), root(&mut parents, b.group));
@@ -115,39 +157,56 @@ fn merge_once(
             merged = true;
         }
     };
-    for (i, slot) in slots.iter().enumerate().filter(|(_, slot)| slot.fresh) {
-        for other in slots[i + 1..].iter().take_while(|other| other.low[0] - slot.high[0] < clearance) {
-            meet(slot, other);
+    // By bands above that of a slot: what is to the left of all that it can meet. It only goes on to the right within a band.
+    let (mut firsts, mut from) = (Vec::new(), usize::MAX);
+    for (i, slot) in slots.iter().enumerate() {
+        let reached = |other: &&Slot| other.low[0] - slot.high[0] < clearance;
+        slots[i + 1..starts[slot.band + 1]].iter().take_while(reached).for_each(|other| meet(slot, other));
+        if from != slot.band {
+            firsts.clear();
+            from = slot.band;
         }
-        // Those that are fresh have looked ahead themselves.
-        let before = slots[..i].iter().rev().take_while(|other| slot.low[0] - other.low[0] - widest < clearance);
-        for other in before.filter(|other| !other.fresh) {
-            meet(slot, other);
+        // What is in a lower band has looked up here itself.
+        for (above, band) in (slot.band + 1..=bands.at(slot.high[1] + clearance)).enumerate() {
+            if firsts.len() == above {
+                firsts.push(starts[band]);
+            }
+            let (first, end) = (&mut firsts[above], starts[band + 1]);
+            while *first < end && slot.low[0] - slots[*first].low[0] - widest >= clearance {
+                *first += 1;
+            }
+            slots[*first..end].iter().take_while(reached).for_each(|other| meet(slot, other));
         }
     }
     if merged {
         join(groups, slots, &mut parents, obstacles);
+        bands.sort(slots);
     }
     merged
 }
 
 /// Puts unions in the places of the groups of each root.
 fn join(groups: &mut Vec<Group>, slots: &mut Vec<Slot>, parents: &mut [usize], obstacles: &[&Obstacle]) {
-    let mut unions: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    // Of those that grow: which union they are, and its parts.
+    let mut grows: Vec<Option<usize>> = vec![None; groups.len()];
+    let mut unions: Vec<Vec<usize>> = Vec::new();
     for slot in slots.iter_mut() {
         slot.fresh = false;
         let root = root(parents, slot.group);
         if root != slot.group {
-            unions.entry(root).or_insert_with(|| vec![root]).push(slot.group);
+            let union = *grows[root].get_or_insert_with(|| {
+                unions.push(vec![root]);
+                unions.len() - 1
+            });
+            unions[union].push(slot.group);
         }
     }
-    slots.retain(|slot| parents[slot.group] == slot.group && !unions.contains_key(&slot.group));
-    for parts in unions.into_values() {
+    slots.retain(|slot| parents[slot.group] == slot.group && grows[slot.group].is_none());
+    for parts in unions {
         let union = Group::union(&parts.iter().map(|part| &groups[*part]).collect::<Vec<_>>(), obstacles);
         slots.push(Slot::of(groups.len(), &union));
         groups.push(union);
     }
-    sort(slots);
 }
 
 /// Whether two groups are near each other by members that adjoin, and by no others.
@@ -190,7 +249,7 @@ impl Slot {
                 high[axis] = high[axis].max(point[axis] + outline.radius);
             }
         }
-        Self { low, high, fresh: true, group }
+        Self { low, high, band: 0, fresh: true, group }
     }
 }
 

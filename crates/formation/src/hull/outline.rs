@@ -79,7 +79,9 @@ impl Outline<'_> {
     /// Whether the gap is strictly less than `limit` (m). Far cheaper than [`Self::gap`].
     pub fn is_nearer_than(&self, other: &Outline<'_>, limit: f64) -> bool {
         let limit = limit + self.radius + other.radius;
-        let arm = other.middle() - self.middle();
+        // Points well inside both: between two corners that are opposite, or nearly.
+        let inside = |points: &[Vector2<f64>]| 0.5 * (points[0] + points[points.len() / 2]);
+        let arm = inside(other.points) - inside(self.points);
         is_nearer(self.points, other.points, arm, limit).unwrap_or_else(|| self.core_distance(other) < limit)
     }
 
