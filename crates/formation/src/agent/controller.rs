@@ -196,9 +196,13 @@ impl<T: Trench> Agent<T> {
                     let there = other.coasted(since);
                     (turn(Push::of_robot_ahead(&settings.zoning, position, there.position)), there.velocity)
                 });
-                let of_leader = if attracted.led { Push::of_robot_ahead } else { Push::of_leader };
-                let leading =
-                    leader.map(|leader| (of_leader(&settings.zoning, position, leader.position), leader.velocity));
+                let leading = leader.map(|leader| {
+                    let push = match attracted.led {
+                        true => Push::of_robot_ahead(&settings.zoning, position, leader.position),
+                        false => Push::of_leader(&settings.zoning, position, leader.position),
+                    };
+                    (push, leader.velocity)
+                });
                 let obstacles = self.obstacles_near(around, since, position).map(|index| {
                     let approach = self.approach(around, since, index, position);
                     (turn(Push::of_obstacle(&settings.potential, approach)), around.velocity(index))
