@@ -16,7 +16,7 @@ fn no_contact(summary: &RunSummary) {
 
 /// Launches an experiment with the default profile and holds its bag against the bounds of that.
 fn tuned_profile_keeps_its_bounds(launch: &Launch, file: &str) {
-    let (status, text) = launch.run(file, &["duration:=30.0"]);
+    let (status, text) = launch.finish(launch.recording(file, &["duration:=30.0"]));
     assert!(status.success(), "{status}\n{text}");
     let summary = launch.judge(&[]);
     no_contact(&summary);
@@ -74,7 +74,7 @@ fn live_square_over_zenoh() {
 fn live_triangle_thesis() {
     let launch = Launch::new(domain(1));
     let arguments = ["profile:=thesis", "bed:=ideal", "duration:=60.5", "tolerance:=0.2"];
-    let (status, text) = launch.run("triangle.launch.yaml", &arguments);
+    let (status, text) = launch.finish(launch.recording("triangle.launch.yaml", &arguments));
     assert!(status.success(), "{status}\n{text}");
     let summary = launch.judge(&[24.0, 60.0]);
     no_contact(&summary);
@@ -90,7 +90,7 @@ fn live_triangle_thesis() {
 fn live_a_run_that_does_not_form_says_so() {
     let launch = Launch::new(domain(2));
     // Two seconds are too short to get anywhere.
-    let (status, text) = launch.run("square.launch.yaml", &["duration:=2.0", "tolerance:=0.001"]);
+    let (status, text) = launch.finish(launch.recording("square.launch.yaml", &["duration:=2.0", "tolerance:=0.001"]));
     assert_eq!(status.code(), Some(10), "{text}");
     assert!(text.contains("the formation does not stand: further than 0.001 m from their goals: robot1"), "{text}");
 }

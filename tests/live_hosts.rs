@@ -47,7 +47,7 @@ fn the_square_stands(launch: &Launch, hosts: &[Host], variables: impl Fn(usize) 
         .iter()
         .zip(1..)
         .map(|(robot, host)| {
-            let mut command = with(launch.command("robot_host.launch.yaml", robot), host);
+            let mut command = with(launch.command("robot_host.launch.yaml", hosts[host].name()), host);
             command.arg(format!("robot:={robot}")).arg(format!("robots:=[{}]", ROBOTS.join(", ")));
             Elsewhere::start(&hosts[host], &command)
         })

@@ -42,7 +42,7 @@ fn conformed(bag: &BagReader) -> Conformed {
 /// Launches the pursuit, holds its bag against the bounds, and gives what came of it.
 fn pursue(domain: u32, arguments: &[&str]) -> Conformed {
     let launch = Launch::new(domain);
-    let (status, text) = launch.run("pursuit.launch.yaml", arguments);
+    let (status, text) = launch.finish(launch.recording("pursuit.launch.yaml", arguments));
     assert!(status.success(), "{status}\n{text}");
     let summary = launch.judge(&[]);
     assert!(summary.contacts.is_empty(), "{:?}", summary.contacts);
@@ -81,7 +81,7 @@ fn live_pursuit_from_a_random_start() {
 #[test]
 fn live_column_is_that_of_lockstep() {
     let launch = Launch::new(domain(1));
-    let (status, text) = launch.run("column.launch.yaml", &[]);
+    let (status, text) = launch.finish(launch.recording("column.launch.yaml", &[]));
     assert!(status.success(), "{status}\n{text}");
     let live = conformed(&launch.recorded());
     let lockstep = drive("column.launch.yaml", &[]).conformity.finish();

@@ -46,11 +46,6 @@ impl Launch {
         bag
     }
 
-    /// Runs a launch file to its end, recording a bag.
-    pub(crate) fn run(&self, file: &str, arguments: &[&str]) -> (ExitStatus, String) {
-        self.finish(self.recording(file, arguments))
-    }
-
     /// The launch of a file that records a bag.
     pub(crate) fn recording(&self, file: &str, arguments: &[&str]) -> Command {
         let mut command = self.command(file, "");

@@ -38,11 +38,14 @@ struct Known {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Team {
     robots: BTreeMap<String, Known>,
+    /// When the localizer looked last: while it does not look, nobody is missing.
+    looked: Option<Steady>,
 }
 
 impl Team {
     /// The localizer has looked.
     pub(crate) fn seen(&mut self, at: Times, team: &TeamState) {
+        self.looked = Some(at.steady);
         for robot in team.robots.iter().filter(|robot| robot.status != RobotState::STATUS_LOST) {
             self.robots.entry(robot.name.clone()).or_default().seen = Some(at.steady);
         }
@@ -64,7 +67,7 @@ impl Team {
         let mut changed = false;
         for robot in robots {
             let known = self.robots.entry(robot.clone()).or_default();
-            let good = known.complaint(now).is_none();
+            let good = known.complaint(now, self.looked).is_none();
             changed |= known.presence.update(now, good, patience);
         }
         changed
@@ -96,7 +99,7 @@ impl Team {
 
     /// What is wrong with a robot now, in words.
     pub(crate) fn complaint(&self, now: Steady, robot: &str) -> &'static str {
-        self.robots.get(robot).and_then(|known| known.complaint(now)).unwrap_or("it waits to join")
+        self.robots.get(robot).and_then(|known| known.complaint(now, self.looked)).unwrap_or("it waits to join")
     }
 
     /// Everything is taken for good until it shows otherwise: a run begins.
@@ -108,8 +111,9 @@ impl Team {
 }
 
 impl Known {
-    fn complaint(&self, now: Steady) -> Option<&'static str> {
-        if self.seen.is_none_or(|seen| now.seconds_since(seen) > SILENCE) {
+    fn complaint(&self, now: Steady, looked: Option<Steady>) -> Option<&'static str> {
+        let looked = looked.unwrap_or(now);
+        if self.seen.is_none_or(|seen| looked.seconds_since(seen) > SILENCE) {
             return Some("the localizer does not see it");
         }
         if self.controller.as_ref().is_some_and(|(at, _)| now.seconds_since(*at) > SILENCE) {

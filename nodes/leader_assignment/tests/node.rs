@@ -112,13 +112,17 @@ impl Bench {
     fn live(&mut self, seconds: f64, speakers: &[(&str, &[&str])], silent: &[&str]) {
         for _ in 0..(10.0 * seconds) as u32 {
             self.seconds += 0.1;
-            for (robot, hears) in speakers {
-                let hears = hears.iter().map(|name| (*name).to_owned()).collect();
-                self.send(&format!("/{robot}/leader_state"), &LeaderState { hears, ..Default::default() });
-                let link = LinkStatus { up: !silent.contains(robot), ..Default::default() };
-                self.send(&format!("/{robot}/link"), &link);
-            }
+            self.speak(speakers, silent);
             self.see(RobotState::STATUS_TRACKED);
+        }
+    }
+
+    fn speak(&mut self, speakers: &[(&str, &[&str])], silent: &[&str]) {
+        for (robot, hears) in speakers {
+            let hears = hears.iter().map(|name| (*name).to_owned()).collect();
+            self.send(&format!("/{robot}/leader_state"), &LeaderState { hears, ..Default::default() });
+            let link = LinkStatus { up: !silent.contains(robot), ..Default::default() };
+            self.send(&format!("/{robot}/link"), &link);
         }
     }
 
@@ -413,6 +417,26 @@ fn robots_quit_and_join_while_the_others_keep_their_places() {
     bench.live(3.0, &EVERYBODY, &[]);
     let after: Assignment = bench.last("/assignment").unwrap();
     assert_eq!(after.members, before.members, "both have their places again");
+}
+
+#[test]
+fn while_the_localizer_is_silent_nobody_has_quit() {
+    let mut bench = Bench::running();
+    bench.live(5.0, &EVERYBODY, &[]);
+    let before = bench.assigned();
+    for _ in 0..50 {
+        bench.seconds += 0.1;
+        bench.speak(&EVERYBODY, &[]);
+        bench.handle(Event::Wakeup);
+    }
+    bench.live(1.0, &EVERYBODY, &[]);
+    assert_eq!(bench.assigned(), before, "places and epoch are as they were");
+    for _ in 0..50 {
+        bench.seconds += 0.1;
+        bench.speak(&EVERYBODY[1..], &[]);
+        bench.handle(Event::Wakeup);
+    }
+    assert_eq!(bench.chains().len(), 3, "a controller that dies meanwhile is missed");
 }
 
 #[test]
