@@ -4,7 +4,7 @@
 use image::{GrayImage, RgbImage};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
 use trench_optics::{Camera, CameraInfo, Lens, Mount, Pad, PlumbBob, Pose2};
 use trench_sim::camera::{Appearance, HeldBoard, Renderer, Scene, render_board};
 
@@ -109,4 +109,86 @@ fn colours_are_learned_from_clicks() {
     assert!(code == Some(2) && said.contains("yellow cannot be told from the rest"), "{said}");
     let (code, said) = calibrate(path, &["colours", "field.png", "--yellow", "900,1", "--blue", &blue]);
     assert!(code == Some(2) && said.contains("(900, 1) is outside the picture"), "{said}");
+}
+
+/// The localizer of the test bed's camera, as a process, killed with this.
+struct Localizer {
+    process: Child,
+    domain: String,
+}
+
+impl Localizer {
+    fn environment(domain: &str) -> [(&str, String); 2] {
+        [("ROS_DOMAIN_ID", domain.to_owned()), ("TRENCH_SHM_PREFIX", format!("calibrate{}_", std::process::id()))]
+    }
+
+    fn start() -> Self {
+        let domain = (71 + (std::process::id() % 7) * 4).to_string();
+        let cameras = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/cameras");
+        let file = |name: &str| cameras.join(name).display().to_string();
+        let process = Command::new(Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_localizer"))
+            .args(["--ros-args", "-p", "robots:=[robot1]", "-p"])
+            .arg(format!("camera_info_file:={}", file("overhead.yaml")))
+            .args(["-p", &format!("mount_file:={}", file("overhead_mount.yaml"))])
+            .envs(Self::environment(&domain))
+            .stderr(Stdio::null())
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        Self { process, domain }
+    }
+
+    fn apply(&self, folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+        let output = Command::new(env!("CARGO_BIN_EXE_trench"))
+            .args(["calibrate", "apply"])
+            .args(arguments)
+            .current_dir(folder)
+            .envs(Self::environment(&self.domain))
+            .output()
+            .unwrap();
+        let said = [output.stdout, output.stderr].concat();
+        (output.status.code(), String::from_utf8(said).unwrap())
+    }
+}
+
+impl Drop for Localizer {
+    fn drop(&mut self) {
+        let _ended = self.process.kill();
+        let _status = self.process.wait();
+    }
+}
+
+#[test]
+fn live_a_running_localizer_takes_what_was_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    std::fs::write(path.join("mount.yaml"), Mount { x: 1.3, yaw: 0.02, ..Mount::nominal() }.to_yaml()).unwrap();
+    std::fs::write(path.join("lens.yaml"), "camera_name: overhead\n").unwrap();
+    let colours = |camera: &str| {
+        format!(
+            "/**/overhead_localizer:\n  ros__parameters:\n    colour: {{camera: {camera}, yellow: 0.4, blue: 0.5, minimum: 30.0}}\n"
+        )
+    };
+    std::fs::write(path.join("colours.yaml"), colours("overhead")).unwrap();
+    std::fs::write(path.join("theirs.yaml"), colours("another")).unwrap();
+    std::fs::write(path.join("nobodys.yaml"), "/else:\n  ros__parameters: {speed: 1.0}\n").unwrap();
+    let mut localizer = Localizer::start();
+
+    let (code, said) = localizer.apply(path, &["--mount", "mount.yaml", "--colours", "colours.yaml"]);
+    assert!(code == Some(0) && said.contains("colours are in force"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &["--colours", "theirs.yaml"]);
+    assert!(code == Some(1) && said.contains("not the colours of the camera"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &["--lens", "lens.yaml"]);
+    assert!(code == Some(1) && said.contains("refused"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &["--colours", "nobodys.yaml"]);
+    assert!(code == Some(3) && said.contains("says nothing of this localizer"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &["--mount", "missing.yaml"]);
+    assert!(code == Some(3) && said.contains("missing.yaml"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &[]);
+    assert!(code == Some(2) && said.contains("--mount"), "{code:?} {said}");
+
+    localizer.process.kill().unwrap();
+    localizer.process.wait().unwrap();
+    let (code, said) = localizer.apply(path, &["--mount", "mount.yaml"]);
+    assert!(code == Some(2) && said.contains("nobody answers"), "{code:?} {said}");
 }

@@ -1,5 +1,6 @@
 //! `trench calibrate`: what a camera's lens does, where it hangs, what the pads' colours are.
 
+mod apply;
 mod board;
 mod colours;
 mod error;
@@ -20,7 +21,7 @@ Exit codes:
 /// Calibrates an overhead camera: print a board, take pictures of it, measure some points, click on two discs.
 ///
 /// `print` makes the board; `lens` finds the lens from ten or more pictures of it; `field` finds where the camera hangs
-/// from points whose places are known; `colours` learns the pads' colours (docs/calibrate.md).
+/// from points whose places are known; `colours` learns the pads' colours; `apply` gives a running localizer what was found (docs/calibrate.md).
 #[derive(Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
@@ -34,6 +35,7 @@ enum What {
     Lens(lens::Arguments),
     Field(field::Arguments),
     Colours(colours::Arguments),
+    Apply(apply::Arguments),
 }
 
 /// The board, as it is told to `print` and to `lens`.
@@ -67,6 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
         What::Lens(arguments) => lens::run(arguments),
         What::Field(arguments) => field::run(arguments),
         What::Colours(arguments) => colours::run(arguments),
+        What::Apply(arguments) => return apply::run(arguments),
     };
     match done {
         Ok(agrees) => ExitCode::from(u8::from(!agrees)),

@@ -30,6 +30,7 @@ mod transport;
 mod watchdog;
 
 pub use exit::Exit;
+pub use parameters::to_message as parameter_message;
 pub use priority::{Turn, wait_turn};
 pub use run::{run, run_alone, run_with_arguments, run_without_journal};
 pub use transport::{RouterError, TransportError, forget_shared_memory, route};

@@ -74,7 +74,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             .range(0.005, 2.0)
             .read_only(),
         P::double("pad.tolerance", 0.005, "m, how far a pair of discs may be from the pad's spacing").range(1e-4, 0.1),
-        P::string("colour.camera", "", "the camera whose colours these are, by its lens file; empty: any").read_only(),
+        P::string("colour.camera", "", "the camera whose colours these are, by its lens file; empty: any"),
         P::double("colour.yellow", colours.yellow_ratio, "least (R + G - 2 B) / (R + G + B) of yellow")
             .range(0.05, 2.0),
         P::double("colour.blue", colours.blue_ratio, "least (2 B - R - G) / (R + G + B) of blue").range(0.05, 2.0),
@@ -129,12 +129,6 @@ impl Settings {
         let read = |path: &str| files.read("camera_info_file", path);
         let cameras = Overhead::all(lens_file, (&mount_file, &mounts), read)?;
 
-        let colours_of = parameters.str("colour.camera")?;
-        if let Some(other) = cameras.iter().find(|view| !colours_of.is_empty() && view.lens_name != colours_of) {
-            let problem = format!("these are not the colours of the camera {}", other.lens_name);
-            return Err(parameters.error("colour.camera", problem, "learn them by `trench calibrate colours`"));
-        }
-
         let pad = Pad {
             disc_diameter: parameters.f64("pad.disc_diameter")?,
             disc_spacing: parameters.f64("pad.disc_spacing")?,
@@ -174,6 +168,7 @@ impl Settings {
 
     /// Takes what may change while the node runs; on an error nothing changes.
     pub(crate) fn tune(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
+        check_colours(parameters, &self.cameras)?;
         let colours = ColourLimits {
             yellow_ratio: parameters.f64("colour.yellow")?,
             blue_ratio: parameters.f64("colour.blue")?,
@@ -251,4 +246,14 @@ fn robots(parameters: &Parameters) -> Result<Vec<Robot>, ConfigError> {
     }
     robots.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(robots)
+}
+
+/// Whether the colours are those of the cameras, as far as their file says it.
+fn check_colours(parameters: &Parameters, cameras: &[Overhead]) -> Result<(), ConfigError> {
+    let colours_of = parameters.str("colour.camera")?;
+    if let Some(other) = cameras.iter().find(|view| !colours_of.is_empty() && view.lens_name != colours_of) {
+        let problem = format!("these are not the colours of the camera {}", other.lens_name);
+        return Err(parameters.error("colour.camera", problem, "learn them by `trench calibrate colours`"));
+    }
+    Ok(())
 }

@@ -8,3 +8,4 @@ mod value;
 
 pub(crate) use server::ParameterServer;
 pub(crate) use service::ParameterService;
+pub use value::to_message;

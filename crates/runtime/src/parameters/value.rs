@@ -20,7 +20,8 @@ pub(super) fn kind(value: &ParameterValue) -> u8 {
 }
 
 /// A value as a message.
-pub(super) fn to_message(value: &ParameterValue) -> message::ParameterValue {
+#[must_use]
+pub fn to_message(value: &ParameterValue) -> message::ParameterValue {
     let mut said = message::ParameterValue { r#type: kind(value), ..Default::default() };
     match value.clone() {
         ParameterValue::Bool(value) => said.bool_value = value,
