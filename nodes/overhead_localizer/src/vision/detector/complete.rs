@@ -25,11 +25,12 @@ impl Detector {
     pub(super) fn complete<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, found: &mut Vec<Found>) {
         let Expectation { width, height, spacing } = self.expectation;
         let distance2 = |a: &Found, b: &Found| {
-            let [u, v] = [a.disc.centre.u - b.disc.centre.u, a.disc.centre.v - b.disc.centre.v];
-            (u / (spacing * width)).powi(2) + (v / (spacing * height)).powi(2)
+            let u = (a.disc.centre.u - b.disc.centre.u) / (spacing * width);
+            let v = (a.disc.centre.v - b.disc.centre.v) / (spacing * height);
+            u * u + v * v
         };
         let misfit = |a: &Found, b: &Found| (libm::sqrt(distance2(a, b)) - 1.0).abs();
-        let exact = (1.0 - EXACT).powi(2)..(1.0 + EXACT).powi(2);
+        let exact = (1.0 - EXACT) * (1.0 - EXACT)..(1.0 + EXACT) * (1.0 + EXACT);
         let mut looks = 0;
         for index in 0..found.len() {
             let Some(&one) = found.get(index) else { break };
