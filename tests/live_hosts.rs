@@ -5,6 +5,8 @@
 mod live_support;
 #[path = "../crates/runtime/tests/hosts/network.rs"]
 mod network;
+#[path = "live_support/tuned.rs"]
+mod tuned;
 
 use live_support::{Launch, domain};
 use network::{Host, World};
@@ -56,13 +58,7 @@ fn the_square_stands(launch: &Launch, hosts: &[Host], variables: impl Fn(usize) 
     let (status, text) = launch.finish(hosts[0].move_to(&base));
     assert!(status.success(), "{status}\n{text}");
     drop(controllers);
-    let summary = launch.judge(&[]);
-    assert!(summary.closest.as_ref().unwrap().gap > 0.0, "{summary}");
-    for robot in &summary.robots {
-        assert!(robot.final_distance.unwrap() <= 0.02, "{}", robot.name);
-    }
-    let shape = summary.max_shape_error.unwrap();
-    assert!(shape <= 0.02, "shape error {shape} m over the last third of the motion and at rest");
+    tuned::keeps_its_bounds(&launch.judge(&[]));
 }
 
 #[test]

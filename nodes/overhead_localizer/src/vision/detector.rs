@@ -47,6 +47,11 @@ impl Expectation {
         Some(Self { width, height, spacing: pad.disc_spacing / pad.disc_diameter })
     }
 
+    /// Half axes, pixels.
+    fn half(&self) -> [f64; 2] {
+        [0.5 * self.width, 0.5 * self.height]
+    }
+
     fn area(&self) -> f64 {
         std::f64::consts::FRAC_PI_4 * self.width * self.height
     }
@@ -188,7 +193,7 @@ impl Detector {
         let side = |[first, last]: [usize; 2]| (last - first + 1) as f64;
         let round = measured.area / (std::f64::consts::FRAC_PI_4 * side(extent.columns) * side(extent.rows));
         let fits = (SMALLEST..LARGEST).contains(&ratio) && (ROUND[0]..ROUND[1]).contains(&round);
-        let half = [0.5 * expected.width, 0.5 * expected.height];
+        let half = expected.half();
         let is_faint = is_faint(measured.contrast, tracer.weights);
         let near = |found: &Faint| {
             let [across, down] = [found.centre.u - measured.centre.u, found.centre.v - measured.centre.v];
@@ -205,11 +210,9 @@ impl Detector {
 
     /// A disc that something lies over in part, away from the image's edge.
     fn hidden<const RED: usize>(&self, tracer: &Tracer<'_, RED>, place: [usize; 2]) -> Option<Found> {
-        let half = [0.5 * self.expectation.width, 0.5 * self.expectation.height];
+        let half = self.expectation.half();
         let rim = rim::find(tracer, place, half)?;
-        let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
-        let whole =
-            inside(rim.centre.u, half[0], tracer.frame.width) && inside(rim.centre.v, half[1], tracer.frame.height);
+        let whole = tracer.frame.holds(rim.centre, half);
         // Where nothing lies over it, colours were washed out: then all of its pixels tell more than its rim.
         let faint = faint::measure(tracer, rim.centre, half).filter(|faint| faint.scatter < CLEAR);
         whole.then(|| Found {

@@ -1,6 +1,7 @@
 //! A camera frame, checked once: in place where its bytes are rgb8 or bgr8, otherwise converted.
 
 use super::yuyv;
+use trench_optics::Pixel;
 
 /// The order of a pixel's three bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,6 +99,12 @@ impl<'a> Frame<'a> {
                 Ok(Self { width, height, step: 3 * width, order: ChannelOrder::Rgb, bytes: room })
             }
         }
+    }
+
+    /// Whether a disc at `centre` with these half axes (pixels) is in the picture as a whole.
+    pub(super) fn holds(&self, centre: Pixel, half: [f64; 2]) -> bool {
+        let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
+        inside(centre.u, half[0], self.width) && inside(centre.v, half[1], self.height)
     }
 
     /// The pixels of row `v`, three bytes each; empty below the image.

@@ -19,18 +19,21 @@ const DISTANCE: [f64; 2] = [0.9, 1.1];
 /// Its pixels differ no more from a disc's on a ground, of the contrast of both: noise does, edges and corners do more.
 const SCATTER: f64 = 0.3;
 
-/// The disc of `tracer`'s colour whose partner is at `of`, `spacing` away (pixels along row and column), with these half axes.
+/// The disc of `tracer`'s colour at one of `places` whose partner is at `of`, `spacing` away (pixels along row and column), with
+/// these half axes.
 pub(super) fn find<const RED: usize>(
     tracer: &Tracer<'_, RED>,
+    places: &[Pixel],
     of: Pixel,
     spacing: [f64; 2],
     half: [f64; 2],
 ) -> Option<Faint> {
-    let at = |place| faint::measure(tracer, place, half).filter(|found| fits(tracer, found, of, spacing, half));
-    places(tracer, of, spacing, half).into_iter().find_map(at)
+    let at =
+        |place: &Pixel| faint::measure(tracer, *place, half).filter(|found| fits(tracer, found, of, spacing, half));
+    places.iter().find_map(at)
 }
 
-/// Where it may be, the likeliest place first.
+/// Where the disc may be whose partner is at `of`, the likeliest place first.
 pub(super) fn places<const RED: usize>(
     tracer: &Tracer<'_, RED>,
     of: Pixel,
@@ -66,11 +69,7 @@ fn fits<const RED: usize>(
     half: [f64; 2],
 ) -> bool {
     let away = libm::hypot((found.centre.u - of.u) / spacing[0], (found.centre.v - of.v) / spacing[1]);
-    let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
-    inside(found.centre.u, half[0], tracer.frame.width)
-        && inside(found.centre.v, half[1], tracer.frame.height)
-        && found.scatter < SCATTER
-        && (DISTANCE[0]..DISTANCE[1]).contains(&away)
+    tracer.frame.holds(found.centre, half) && found.scatter < SCATTER && (DISTANCE[0]..DISTANCE[1]).contains(&away)
 }
 
 /// The chroma of nine places all over a disc, at their sum; little where one of them lies outside the image.

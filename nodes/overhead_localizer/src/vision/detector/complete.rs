@@ -59,25 +59,18 @@ impl Detector {
     /// Adds the disc whose partner is `found[index]`, if it is seen or enough of it is.
     fn find_partner<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, index: usize, found: &mut Vec<Found>) {
         let Some(&Found { disc: one, .. }) = found.get(index) else { return };
+        let Expectation { width, height, spacing } = self.expectation;
+        let tracer = Tracer::<RED> { frame, colour: one.colour.other(), weights, longest: 0 };
+        let spacing = [spacing * width, spacing * height];
+        let places = partner::places(&tracer, one.centre, spacing, self.expectation.half());
         let is_new = |it: &Disc| !self.is_known(found, it.colour, it.centre.u as usize, it.centre.v as usize);
-        if let Some(disc) = self.partner::<RED>(frame, weights, &one).filter(is_new) {
+        let at = |place: &Pixel| self.covered::<RED>(frame, weights, &one, *place);
+        if let Some(disc) = self.partner(&tracer, &places, &one, spacing).filter(is_new) {
             found.push(Found { disc, is_whole: true });
-        } else if let Some(pad) = self.half_hidden::<RED>(frame, weights, &one)
-            && is_new(&pad[1].disc)
-        {
+        } else if let Some(pad) = places.iter().find_map(at).filter(|pad| is_new(&pad[1].disc)) {
             found[index] = pad[0];
             found.push(pad[1]);
         }
-    }
-
-    /// The pad of a disc whose partner was not found, if enough of that is seen somewhere.
-    fn half_hidden<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, of: &Disc) -> Option<[Found; 2]> {
-        let Expectation { width, height, spacing } = self.expectation;
-        let tracer = Tracer::<RED> { frame, colour: of.colour.other(), weights, longest: 0 };
-        let half = [0.5 * width, 0.5 * height];
-        partner::places(&tracer, of.centre, [spacing * width, spacing * height], half)
-            .into_iter()
-            .find_map(|place| self.covered::<RED>(frame, weights, of, place))
     }
 
     /// The pad of a disc whose partner is near `place`, by the rims of both.
@@ -88,19 +81,14 @@ impl Detector {
         of: &Disc,
         place: Pixel,
     ) -> Option<[Found; 2]> {
-        let Expectation { width, height, spacing } = self.expectation;
-        let half = [0.5 * width, 0.5 * height];
+        let (spacing, half) = (self.expectation.spacing, self.expectation.half());
         let colours = [of.colour, of.colour.other()];
         let tracers = colours.map(|colour| Tracer::<RED> { frame, colour, weights, longest: 0 });
         let pad = pad_fit::fit([&tracers[0], &tracers[1]], [of.centre, place], half, spacing)?;
         let is_coloured = [0, 1]
             .into_iter()
             .all(|index| self.classifier.classify::<RED>(pad.colours[index], weights) == Some(colours[index]));
-        let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
-        let is_inside = pad
-            .centres
-            .iter()
-            .all(|centre| inside(centre.u, half[0], frame.width) && inside(centre.v, half[1], frame.height));
+        let is_inside = pad.centres.iter().all(|centre| frame.holds(*centre, half));
         let disc = |index: usize| Disc {
             colour: colours[index],
             centre: pad.centres[index],
@@ -112,12 +100,16 @@ impl Detector {
         (is_clear && is_coloured && is_inside).then(|| [0, 1].map(|index| Found { disc: disc(index), is_whole: true }))
     }
 
-    fn partner<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, of: &Disc) -> Option<Disc> {
-        let Expectation { width, height, spacing } = self.expectation;
-        let colour = of.colour.other();
-        let tracer = Tracer::<RED> { frame, colour, weights, longest: 0 };
-        let found =
-            partner::find(&tracer, of.centre, [spacing * width, spacing * height], [0.5 * width, 0.5 * height])?;
+    /// The disc of the tracer's colour at one of `places` that tells from its ground as a partner of `of` does.
+    fn partner<const RED: usize>(
+        &self,
+        tracer: &Tracer<'_, RED>,
+        places: &[Pixel],
+        of: &Disc,
+        spacing: [f64; 2],
+    ) -> Option<Disc> {
+        let Tracer { colour, weights, .. } = *tracer;
+        let found = partner::find(tracer, places, of.centre, spacing, self.expectation.half())?;
         let is_coloured = self.classifier.admits::<RED>(colour, found.inside, found.outside, weights, WASHED_OUT);
         is_coloured.then(|| Disc {
             colour,
