@@ -1,7 +1,8 @@
 """docs/FAULTS.md from the results of the runs of the matrix."""
 
-import json
 from pathlib import Path
+
+import verdict
 
 HEAD = """# Faults
 
@@ -12,7 +13,8 @@ the worst of all seeds that were run:
 
 - no contact; no robot moves on information older than 0.25 s and the time it takes to brake; only the victim ends; commands finite and within
   limits; memory grows by less than 10 MB; the bag has no gap of a second;
-- **diagnostic**: the one that names the fault, within 0.5 s; *launcher*: the launcher's own report of the process that died;
+- **diagnostic**: the one that names the fault, within 0.5 s; *launcher*: the launcher's own report of the process
+  that died; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned stand within 0.6 s (0.25 s on old information, then braking) and until the fault is over;
 - **driven**: all robots move again, or are where they are to be, within 2 s of its end (the victim lives again, the injection is off);
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the
@@ -27,31 +29,50 @@ one network, or by Zenoh through a router between two ([hosts.md](hosts.md)).
 
 
 def write(runs: list[dict], results: Path, page: Path) -> None:
-    """Writes the page."""
+    """Writes the page; what was not run here stays as it was."""
+    before = rows(page)
     lines = []
     for run in runs:
-        files = sorted((results / run["name"]).glob("*/verdicts.json"), key=lambda file: int(file.parent.name))
-        documents = [json.loads(file.read_text()) for file in files]
+        folder = results / run["name"]
+        documents = [verdict.read(seed) for seed in sorted(folder.glob("[0-9]*")) if is_alone(seed)]
+        beside = [verdict.read(seed) for seed in sorted(folder.glob(f"*{verdict.IN_COMPANY}"))]
         date = max((document["date"] for document in documents), default="-")
         for fault in run["faults"]:
-            met = [verdict for document in documents for verdict in document["verdicts"] if verdict["fault"] == fault["name"]]
-            lines.append(row(fault, run, met, date))
+            met, failed_beside = of(fault, documents), [told for told in of(fault, beside) if told["problems"]]
+            unknown = f"| {fault['name']} | {run['name']} | | | | | not run | | - |"
+            lines.append(row(fault, run, met, failed_beside, date) if met else before.get(fault["name"], unknown))
     page.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
 
 
-def row(fault: dict, run: dict, met: list[dict], date: str) -> str:
+def rows(page: Path) -> dict[str, str]:
+    """The rows of the page by their fault."""
+    lines = page.read_text(encoding="utf-8").splitlines() if page.exists() else []
+    return {line.split("|")[1].strip(): line for line in lines if line.startswith("| ")}
+
+
+def is_alone(folder: Path) -> bool:
+    """Whether these are the results that count."""
+    return folder.name.isdigit() and (folder / "verdicts.json").exists()
+
+
+def of(fault: dict, documents: list[dict]) -> list[dict]:
+    """What came of a fault in these runs."""
+    return [told for document in documents for told in document["verdicts"] if told["fault"] == fault["name"]]
+
+
+def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date: str) -> str:
     """What came of a fault in all runs in which it was met."""
-    if not met:
-        return f"| {fault['name']} | {run['name']} | | | | | not run | | - |"
-    says = "launcher" if fault.get("says") == "launcher" else worst(met, "diagnosed")
-    failed = [verdict for verdict in met if verdict["problems"]]
-    note = f" ({fault['note']})" if "note" in fault else ""
-    result = f"pass{note}" if not failed else f"**fails**: {'; '.join(failed[0]['problems'])}"
+    says = worst(met, "diagnosed") or fault.get("says" if fault.get("says") == "launcher" else "unnamed", "")
+    failed = [told for told in met if told["problems"]]
+    notes = [fault["note"]] if "note" in fault else []
+    notes += [f"beside another run: {'; '.join(told['problems'])}; alone it is as said here" for told in failed_beside[:1]]
+    result = f"**fails**: {'; '.join(failed[0]['problems'])}" if failed else "pass"
+    result += f" ({'; '.join(notes)})" if notes else ""
     cells = [fault["name"], run["name"], says, *(worst(met, key) for key in ("stood", "recovered", "formed"))]
     return f"| {' | '.join(cells)} | {result} | {len(met) - len(failed)} of {len(met)} | {date} |"
 
 
 def worst(met: list[dict], key: str) -> str:
     """The longest time, or nothing."""
-    times = [verdict[key] for verdict in met if verdict[key] is not None]
+    times = [told[key] for told in met if told[key] is not None]
     return f"{max(times):.2f}" if times else ""

@@ -1,0 +1,115 @@
+"""Several runs of the matrix at a time, each a process with a domain, shared memory, folders and network of its own."""
+
+import itertools
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import verdict
+
+# ROS domains whose ports are below those that the kernel gives away.
+DOMAINS = 100
+# How often processes are looked at, s.
+GLANCE = 0.2
+
+
+@dataclass
+class Job:
+    """A run of the matrix with a seed."""
+
+    run: dict
+    seed: int
+    process: subprocess.Popen | None = None
+
+    def folder(self, results: Path) -> Path:
+        """Where its results are."""
+        return results / self.run["name"] / str(self.seed)
+
+
+def free_domains() -> Iterator[int]:
+    """ROS domains that nobody on this machine is in, again and again."""
+    for number in itertools.count(os.getpid()):
+        domain = 1 + number % DOMAINS
+        port = f":{7400 + 250 * domain:04X} "
+        if port not in Path("/proc/net/udp").read_text(encoding="ascii"):
+            yield domain
+
+
+class Company:
+    """Carries runs out, `at_once` of them at a time."""
+
+    def __init__(self, results: Path, binaries: Path, at_once: int):
+        self.results, self.binaries, self.at_once = results, binaries, at_once
+        self.domains = free_domains()
+        self.failed = False
+
+    def conduct(self, jobs: list[Job]) -> None:
+        """All jobs: side by side those that may, then those that must be alone, then those that failed side by side."""
+        for job in jobs:
+            shutil.rmtree(self._kept(job), ignore_errors=True)
+        together = [job for job in jobs if self.at_once > 1 and not job.run.get("alone")]
+        # The longest first, so that none is left over at the end.
+        together.sort(key=lambda job: -float(job.run["arguments"]["duration"]))
+        self._carry_out(together, self.at_once)
+        again = [job for job in together if not self._passed(job)]
+        self._carry_out([job for job in jobs if job not in together], 1)
+        for job in again:
+            self._keep(job)
+        self._carry_out(again, 1)
+        self.failed |= not all(self._passed(job) for job in jobs)
+
+    def _carry_out(self, jobs: list[Job], at_once: int) -> None:
+        waiting, running = list(jobs), []
+        try:
+            while waiting or running:
+                while waiting and len(running) < at_once:
+                    running.append(self._start(waiting.pop(0)))
+                time.sleep(GLANCE)
+                for job in [job for job in running if job.process.poll() is not None]:
+                    running.remove(job)
+                    self._end(job, at_once > 1)
+        finally:
+            for job in running:
+                job.process.send_signal(signal.SIGINT)
+            for job in running:
+                job.process.wait()
+
+    def _start(self, job: Job) -> Job:
+        folder = job.folder(self.results)
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        program = Path(__file__).with_name("conduct.py")
+        with open(folder / "conduct.log", "w", encoding="utf-8") as log:
+            job.process = subprocess.Popen(
+                [sys.executable, str(program), str(self.binaries), str(folder), job.run["name"], str(job.seed)],
+                env=os.environ | {"ROS_DOMAIN_ID": str(next(self.domains))}, stdout=log, stderr=log,
+                # An interrupt from the terminal comes through us alone.
+                start_new_session=True,
+            )
+        return job
+
+    def _end(self, job: Job, in_company: bool) -> None:
+        folder = job.folder(self.results)
+        if not (folder / "verdicts.json").exists():
+            said = (folder / "conduct.log").read_text(encoding="utf-8", errors="replace").strip().splitlines()
+            problem = f"the run broke off: {said[-1] if said else 'without a word'}"
+            verdict.write(folder, job.seed, [verdict.Verdict(fault["name"], job.run["name"], [problem]) for fault in job.run["faults"]])
+        for told in verdict.read(folder)["verdicts"]:
+            line = verdict.Verdict(**told).line()
+            print(f"{line}{' (in company: again alone)' if in_company and told['problems'] else ''}", flush=True)
+
+    def _keep(self, job: Job) -> None:
+        """Keeps what came of it in company, for the table and for who wants to know why."""
+        job.folder(self.results).rename(self._kept(job))
+
+    def _kept(self, job: Job) -> Path:
+        return job.folder(self.results).with_name(f"{job.seed}{verdict.IN_COMPANY}")
+
+    def _passed(self, job: Job) -> bool:
+        return all(not told["problems"] for told in verdict.read(job.folder(self.results))["verdicts"])

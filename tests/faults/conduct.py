@@ -1,0 +1,67 @@
+"""Conducts one run of the matrix: launches a formation, does what the run says, has the bag judged.
+
+usage: conduct.py BINARIES FOLDER RUN SEED
+
+FOLDER takes verdicts.json and all that the run leaves. In the ROS domain of the environment; started by run.py.
+"""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import act
+import inject
+import judge
+import matrix
+import verdict
+from launched import PATIENCE, Launched
+
+# How much less important judging is than what others have running, who may be timed.
+NICE = 10
+
+
+def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.Verdict]:
+    """Carries out a run and judges its faults."""
+    if run.get("after") == "killed":
+        # A run that was killed leaves its shared memory, checkpoints and the link of the port to the next one.
+        first = Launched(run, binaries, folder, seed)
+        try:
+            inject.Ears(first.log).wait_for_start(PATIENCE)
+        finally:
+            first.kill()
+        shutil.rmtree(folder / "bag", ignore_errors=True)
+        shutil.rmtree(folder / "launch")
+    launched = Launched(run, binaries, folder, seed)
+    ears = inject.Ears(launched.log)
+    windows, memory, code = [], [], None
+    try:
+        ears.wait_for_start(PATIENCE)
+        # What a process takes to begin with is not what it grows by.
+        ears.wait_until(3.0)
+        memory.append(launched.memory())
+        for fault in run["faults"]:
+            if "bed" in fault:
+                continue
+            ears.wait_until(fault["at"])
+            began, ended = act.do(fault, launched, ears)
+            windows.append((fault, began, ended))
+        if not any(fault.get("ends") for fault in run["faults"]):
+            ears.wait_until(float(run["arguments"]["duration"]) - 1.0)
+            memory.append(launched.memory())
+        code = launched.wait()
+    finally:
+        ears.close()
+        launched.end()
+    os.nice(NICE)
+    lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
+    evidence = judge.Evidence(
+        bag=folder / "bag", log=launched.all_logs(), exit_code=code, memory=memory, alive_after=max(lived, default=None),
+        own_bag=folder / "own-bag", binaries=binaries,
+    )
+    return judge.judge(run, windows, evidence)
+
+
+if __name__ == "__main__":
+    BINARIES, FOLDER, RUN, SEED = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], int(sys.argv[4])
+    verdict.write(FOLDER, SEED, conduct(matrix.run(RUN), BINARIES, FOLDER, SEED))
