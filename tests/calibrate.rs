@@ -105,6 +105,20 @@ fn colours_are_learned_from_clicks() {
     assert_eq!(code, Some(0), "{said}");
     let text = std::fs::read_to_string(path.join("colours.yaml")).unwrap();
     assert!(text.contains("camera: \"lab\"") && text.contains("overhead_localizer"), "{text}");
+    // In lamp light a blue disc hardly has more blue than red: the light's own colour is taken out.
+    let mut lamp = image::open(path.join("field.png")).unwrap().into_rgb8();
+    lamp.pixels_mut().for_each(|pixel| pixel.0 = [pixel.0[0], (f64::from(pixel.0[1]) * 0.7) as u8, pixel.0[2] / 3]);
+    lamp.save(path.join("lamp.png")).unwrap();
+    let in_lamp_light = ["colours", "lamp.png", "--yellow", &yellow, "--blue", &blue, "--out", "lamp.yaml"];
+    let (code, said) = calibrate(path, &in_lamp_light);
+    assert_eq!(code, Some(0), "{said}");
+    let limit = |name: &str| {
+        let text = std::fs::read_to_string(path.join(name)).unwrap();
+        let number = text.split("yellow: ").nth(1).and_then(|rest| rest.split(',').next()).map(str::to_owned);
+        number.unwrap().parse::<f64>().unwrap()
+    };
+    let (white, lamp) = (limit("colours.yaml"), limit("lamp.yaml"));
+    assert!((white - lamp).abs() < 0.1, "yellow from {white} in white light, from {lamp} in lamp light");
     let (code, said) = calibrate(path, &["colours", "field.png", "--yellow", &blue, "--blue", &yellow]);
     assert!(code == Some(2) && said.contains("yellow cannot be told from the rest"), "{said}");
     let (code, said) = calibrate(path, &["colours", "field.png", "--yellow", "900,1", "--blue", &blue]);

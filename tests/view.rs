@@ -203,7 +203,7 @@ fn wrong_arguments_are_told() {
         assert!(!output.status.success() && said.contains(expected), "{arguments:?}: {said}");
     };
     check(&["--bag", nothing.to_str().unwrap(), "--port", "0"], "nothing: No such file");
-    check(&["--port", &port], "is another trench view running? Name another port with --port");
+    check(&["--port", &port], "is another page of trench served there? Name another port with --port");
     check(&["--field", "0", "0", "0", "1"], "--field wants numbers");
     check(&["--zones", "0.2,-1", "--port", "0"], "--zones wants numbers");
     check(&["--port", "70000"], "70000");

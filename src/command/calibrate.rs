@@ -6,6 +6,7 @@ mod colours;
 mod error;
 mod field;
 mod lens;
+mod live;
 
 use clap::{Args, Subcommand};
 use error::CalibrateError;
@@ -21,7 +22,8 @@ Exit codes:
 /// Calibrates an overhead camera: print a board, take pictures of it, measure some points, click on two discs.
 ///
 /// `print` makes the board; `lens` finds the lens from ten or more pictures of it; `field` finds where the camera hangs
-/// from points whose places are known; `colours` learns the pads' colours; `apply` gives a running localizer what was found (docs/calibrate.md).
+/// from points whose places are known; `colours` learns the pads' colours, `live` as well, on a page with the
+/// camera's picture; `apply` gives a running localizer what was found (docs/calibrate.md).
 #[derive(Args)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {
@@ -35,6 +37,7 @@ enum What {
     Lens(lens::Arguments),
     Field(field::Arguments),
     Colours(colours::Arguments),
+    Live(live::Arguments),
     Apply(apply::Arguments),
 }
 
@@ -69,6 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
         What::Lens(arguments) => lens::run(arguments),
         What::Field(arguments) => field::run(arguments),
         What::Colours(arguments) => colours::run(arguments),
+        What::Live(arguments) => return live::run(arguments),
         What::Apply(arguments) => return apply::run(arguments),
     };
     match done {

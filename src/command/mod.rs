@@ -11,6 +11,7 @@ mod sim;
 mod ssl;
 mod stop;
 mod view;
+mod web;
 
 use clap::Parser;
 use std::fmt::Display;

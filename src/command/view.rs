@@ -1,37 +1,32 @@
 //! `trench view`: the live picture in a browser.
 
-mod guard;
 mod hub;
 mod node;
 mod serve;
 mod stream;
 
-use super::say;
+use super::web::{Address, BindError};
 use clap::Args;
-use guard::Guard;
 use hub::Hub;
-use serve::{Picture, serve};
-use std::net::{IpAddr, SocketAddr, TcpListener};
+use serve::{Picture, router};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use trench_bag::{BagError, BagReader};
-use trench_view::{LoadError, Recording};
+use trench_view::{LoadError, Recording, page};
+
+const COMMAND: &str = "trench view";
+/// What those may do who reach an address that is not this host's own.
+const OPEN: &str = "sees the picture";
+const FILES: &[&[page::File]] = &[page::SHARED, page::FIELD];
 
 /// Shows the field in a browser: robots, trails, the formation, obstacles, alarms; live, or from a bag.
 ///
 /// Serves one page on this host alone and prints its address. Live, it is a node that listens and says nothing.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// The port of the page; 0 takes any that is free.
-    #[arg(long, default_value_t = 8420)]
-    port: u16,
-    /// The address to serve on. Others than this host's own loopback show the picture to everyone who reaches it.
-    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1")]
-    bind: IpAddr,
-    /// A name under which browsers may ask for the page, besides localhost and addresses.
-    #[arg(long, value_name = "NAME")]
-    allow_host: Vec<String>,
+    #[command(flatten)]
+    address: Address,
     /// Plays this bag (a folder or an .mcap file) instead of what happens now.
     #[arg(long, value_name = "FOLDER")]
     bag: Option<PathBuf>,
@@ -56,8 +51,8 @@ pub(crate) struct Arguments {
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
 enum ViewError {
-    #[error("{address}: {source}; is another trench view running? Name another port with --port")]
-    Bind { address: SocketAddr, source: std::io::Error },
+    #[error(transparent)]
+    Bind(#[from] BindError),
     #[error(transparent)]
     Bag(#[from] BagError),
     #[error("{}: {source}", path.display())]
@@ -81,20 +76,11 @@ pub(super) fn run(arguments: &Arguments) -> ExitCode {
 
 fn show(arguments: &Arguments) -> Result<u8, ViewError> {
     let setup = setup(arguments)?;
-    let asked = SocketAddr::new(arguments.bind, arguments.port);
-    let listener = TcpListener::bind(asked).map_err(|source| ViewError::Bind { address: asked, source })?;
-    let address = listener.local_addr()?;
-    let guard = Guard::new(address, &arguments.allow_host);
+    let server = arguments.address.take()?;
     let Some(path) = &arguments.bag else {
         let hub = Arc::new(Hub::new(setup));
-        announce(address);
-        let served = Arc::clone(&hub);
-        let server = std::thread::Builder::new().name("page".to_owned());
-        server.spawn(move || {
-            if let Err(error) = serve(listener, guard, Picture::Live(served)) {
-                eprintln!("trench view: the server failed: {error}");
-            }
-        })?;
+        server.announce(COMMAND, OPEN);
+        server.serve_beside(COMMAND, FILES, router(Picture::Live(Arc::clone(&hub))))?;
         return Ok(node::run(hub, &arguments.robots, arguments.ground_truth, &arguments.node_arguments));
     };
     let bag = BagReader::open(path)?;
@@ -103,16 +89,9 @@ fn show(arguments: &Arguments) -> Result<u8, ViewError> {
     }
     let load = |source| ViewError::Load { path: path.clone(), source };
     let recording = Arc::new(Recording::load(&bag).map_err(load)?);
-    announce(address);
-    serve(listener, guard, Picture::Bag { recording, setup })?;
+    server.announce(COMMAND, OPEN);
+    server.serve(FILES, router(Picture::Bag { recording, setup }))?;
     Ok(0)
-}
-
-fn announce(address: SocketAddr) {
-    if !address.ip().is_loopback() {
-        eprintln!("trench view: everyone who reaches {address} sees the picture");
-    }
-    say(format_args!("http://{address}/\n"));
 }
 
 /// What the page must know beforehand, as JSON.

@@ -1,4 +1,4 @@
-//! `trench view` and browsers that look at it.
+//! The pages that `trench` serves, and browsers that look at them.
 
 mod browser;
 
@@ -12,7 +12,7 @@ use std::time::Duration;
 /// How long anything may take on a busy machine.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 
-/// A running `trench view`. It ends with this.
+/// A running server of a page. It ends with this.
 pub(crate) struct Viewer {
     process: Child,
     /// Host and port.
@@ -20,10 +20,15 @@ pub(crate) struct Viewer {
 }
 
 impl Viewer {
-    /// Starts it with these arguments on a free port.
+    /// Starts `trench view` with these arguments on a free port.
     pub(crate) fn start(arguments: &[&str], variables: &[(&str, &str)]) -> Self {
+        Self::serve(&["view"], arguments, variables)
+    }
+
+    /// Starts this subcommand of `trench` with these arguments on a free port.
+    pub(crate) fn serve(subcommand: &[&str], arguments: &[&str], variables: &[(&str, &str)]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
-        command.args(["view", "--port", "0"]).args(arguments).envs(variables.iter().copied());
+        command.args(subcommand).args(["--port", "0"]).args(arguments).envs(variables.iter().copied());
         let mut process = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn().unwrap();
         let mut line = String::new();
         BufReader::new(process.stdout.take().unwrap()).read_line(&mut line).unwrap();

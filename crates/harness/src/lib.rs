@@ -11,5 +11,7 @@ pub mod replay;
 pub use bus::BusError;
 pub use load::{LoadError, Loaded, load, load_journalled, parameters, plan};
 pub use lockstep::{Ending, Instance, Lockstep, Observer};
+/// The localizer's eyes, for those who show what it sees.
+pub use overhead_localizer::vision;
 /// What cores read while they are made in this process.
 pub use trench_journal::Disk;

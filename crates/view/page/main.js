@@ -8,19 +8,13 @@ import { drawCards } from "./cards.js";
 import { drawLayers, isShown } from "./layers.js";
 import { drawRobots, placeNames } from "./robots.js";
 import { drawShapes, placeWords } from "./shapes.js";
+import { startTheme } from "./theme.js";
 import { drawTrails } from "./trails.js";
 
 const one = (id) => document.getElementById(id);
-const root = document.documentElement;
 const CARDS = 0.1; // s, between two drawings of the cards: nobody reads faster
 let frames = 0;
 let cardsDrawn = 0;
-
-function show(theme) {
-  root.dataset.theme = theme;
-  one("theme").textContent = theme === "light" ? "Dark" : "Light";
-}
-show(localStorage.getItem("trench.theme") ?? (matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark"));
 
 function draw() {
   const { changed } = picture;
@@ -65,11 +59,7 @@ function pause() {
   one("pause").textContent = connection.held ? "Go on" : "Pause";
 }
 
-function changeTheme() {
-  show(root.dataset.theme === "light" ? "dark" : "light");
-  localStorage.setItem("trench.theme", root.dataset.theme);
-  redraw();
-}
+const changeTheme = startTheme(redraw);
 
 function toggleLayers() {
   const panel = one("layers");
@@ -86,7 +76,6 @@ const KEYS = {
 
 one("pause").addEventListener("click", pause);
 one("fit").addEventListener("click", field.fit);
-one("theme").addEventListener("click", changeTheme);
 one("open-layers").addEventListener("click", toggleLayers);
 document.addEventListener("keydown", (event) => {
   const isTyping = ["INPUT", "SELECT", "BUTTON"].includes(event.target.tagName);

@@ -27,11 +27,17 @@ const SCRIPT: &str = "text/javascript; charset=utf-8";
 const SVG: &str = "image/svg+xml";
 const FONT: &str = "font/woff2";
 
-/// All files. `vendor/` is what `scripts/view-vendor` brings from npm.
-pub const FILES: &[File] = files! {
-    "/" => "index.html", HTML;
+/// Of all pages. `vendor/` is what `scripts/view-vendor` brings from npm.
+pub const SHARED: &[File] = files! {
     "/style.css" => "style.css", STYLE;
     "/icon.svg" => "icon.svg", SVG;
+    "/theme.js" => "theme.js", SCRIPT;
+    "/vendor/inter.woff2" => "vendor/inter.woff2", FONT;
+};
+
+/// The page of `trench view`.
+pub const FIELD: &[File] = files! {
+    "/" => "index.html", HTML;
     "/main.js" => "main.js", SCRIPT;
     "/connection.js" => "connection.js", SCRIPT;
     "/picture.js" => "picture.js", SCRIPT;
@@ -43,23 +49,26 @@ pub const FILES: &[File] = files! {
     "/bar.js" => "bar.js", SCRIPT;
     "/layers.js" => "layers.js", SCRIPT;
     "/vendor/d3.min.js" => "vendor/d3.min.js", SCRIPT;
-    "/vendor/inter.woff2" => "vendor/inter.woff2", FONT;
 };
 
-/// The file at this path.
-#[must_use]
-pub fn find(path: &str) -> Option<&'static File> {
-    FILES.iter().find(|file| file.path == path)
-}
+/// The page of `trench calibrate live`.
+pub const COLOURS: &[File] = files! {
+    "/" => "colours/index.html", HTML;
+    "/colours.css" => "colours/colours.css", STYLE;
+    "/colours.js" => "colours/colours.js", SCRIPT;
+    "/panel.js" => "colours/panel.js", SCRIPT;
+    "/camera.js" => "colours/camera.js", SCRIPT;
+    "/stream.js" => "colours/stream.js", SCRIPT;
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::path::Path;
 
-    #[test]
-    fn every_file_of_the_page_is_served_and_names_no_other_host() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("page");
+    /// Every file of a folder is one of `files`, or of those that all pages share.
+    fn check(folder: &str, files: &[File]) {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
             let name = path.file_name().unwrap().to_str().unwrap();
@@ -67,12 +76,25 @@ mod tests {
                 continue;
             }
             let served = if name == "index.html" { "/".to_owned() } else { format!("/{name}") };
-            let file = find(&served).unwrap_or_else(|| panic!("{served} is not served"));
+            let is_it = |file: &&File| file.path == served && file.bytes == std::fs::read(&path).unwrap();
+            let file = files.iter().chain(SHARED).find(is_it).unwrap_or_else(|| panic!("{served} is not served"));
             let text = std::str::from_utf8(file.bytes).unwrap();
             let own = text.replace("http://www.w3.org/2000/svg", "").replace("ws://${location.host}/", "");
             assert!(!own.contains("://"), "{name} names another host");
         }
-        assert!(find("/../Cargo.toml").is_none() && find("/vendor/").is_none());
+    }
+
+    #[test]
+    fn every_file_of_a_page_is_served_and_names_no_other_host() {
+        check("page", FIELD);
+        check("page/colours", COLOURS);
+        for page in [FIELD, COLOURS] {
+            let mut paths: Vec<&str> = page.iter().chain(SHARED).map(|file| file.path).collect();
+            let count = paths.len();
+            paths.sort_unstable();
+            paths.dedup();
+            assert_eq!(paths.len(), count, "two files have one path");
+        }
     }
 
     /// The page's own hash of each file that came from npm is what scripts/view-vendor wrote down.

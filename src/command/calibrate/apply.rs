@@ -104,7 +104,7 @@ fn build(_: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<
 }
 
 /// What a parameter file says of the localizer, checked as the localizer would at its start.
-fn values(file: &str, text: &str, localizer: &str) -> Result<Vec<Parameter>, ConfigError> {
+pub(super) fn values(file: &str, text: &str, localizer: &str) -> Result<Vec<Parameter>, ConfigError> {
     let declared = catalog::node("overhead_localizer").map(|node| (node.parameters)()).unwrap_or_default();
     let (namespace, name) = localizer.rsplit_once('/').unwrap_or(("", localizer));
     let resolved = resolve(&[Source::File { name: file, text }], namespace, name, &declared);

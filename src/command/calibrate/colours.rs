@@ -5,6 +5,7 @@ use super::error::{CalibrateError, open, read, write};
 use image::RgbImage;
 use std::path::PathBuf;
 use trench_calibrate::{Samples, learn_colours};
+use trench_harness::vision::{Frame, Light};
 use trench_optics::CameraInfo;
 
 /// Learns the pads' colours: from a picture and a click into the middle of some yellow and some blue discs.
@@ -46,6 +47,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<bool, CalibrateError> {
     if [width, height] != expected {
         return Err(CalibrateError::OtherCamera { path: arguments.picture.clone(), width, height, expected });
     }
+    // The localizer takes the light's colour out before it compares.
+    let (size, mut room) = (expected.map(|side| side as usize), Vec::new());
+    let frame = Frame::new(size, "rgb8", size, 3 * size[0], picture.as_raw(), &mut room);
+    let light = Light::of(frame.map_err(|error| CalibrateError::Frame { path: arguments.picture.clone(), error })?);
+    let picture = in_white_light(&picture, light);
     let clicks: Vec<[f64; 2]> = arguments.yellow.iter().chain(&arguments.blue).copied().collect();
     let samples = Samples {
         yellow: around(&picture, &arguments.yellow)?,
@@ -59,6 +65,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<bool, CalibrateError> {
     ));
     write(&arguments.out, colours.to_yaml(&info.name))?;
     Ok(true)
+}
+
+fn in_white_light(picture: &RgbImage, light: Light) -> RgbImage {
+    let mut white = picture.clone();
+    white.pixels_mut().for_each(|pixel| pixel.0 = light.take_out(pixel.0));
+    white
 }
 
 fn around(picture: &RgbImage, clicks: &[[f64; 2]]) -> Result<Vec<[u8; 3]>, CalibrateError> {

@@ -15,6 +15,8 @@ pub(super) enum CalibrateError {
     Size { path: PathBuf, width: u32, height: u32, expected: [u32; 2] },
     #[error("{}: it is no picture of the lens's camera: {width} x {height} pixels instead of {}x{}", path.display(), expected[0], expected[1])]
     OtherCamera { path: PathBuf, width: u32, height: u32, expected: [u32; 2] },
+    #[error("{}: {error}", path.display())]
+    Frame { path: PathBuf, error: trench_harness::vision::FrameError },
     #[error("({u}, {v}) is outside the picture")]
     Outside { u: f64, v: f64 },
     #[error(transparent)]

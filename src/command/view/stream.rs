@@ -4,6 +4,7 @@
 //! whose window is hidden, asks less often and holds up nobody, and nothing is made or sent that nobody looks at.
 
 use super::hub::Hub;
+use crate::command::web::PATIENCE;
 use axum::extract::ws::{Message, WebSocket};
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,8 +13,6 @@ use trench_view::{Command, Player, Recording, Seen};
 
 /// The shortest time between two pictures of a bag.
 const PERIOD: Duration = Duration::from_millis(33);
-/// A browser that takes nothing for so long is gone.
-const PATIENCE: Duration = Duration::from_secs(20);
 
 /// What the browser said.
 enum Said {

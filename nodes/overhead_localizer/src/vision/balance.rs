@@ -4,13 +4,48 @@
 //! light's. Pixels that are cut off at 255 say nothing of it, and dark ones little. What is found is kept within the colours
 //! that lamps and daylight have, and followed slowly: a hand before the camera is no sunset.
 
-use super::frame::Frame;
+use super::frame::{ChannelOrder, Frame};
 
 /// Weights of red and blue that make grey grey; green's is [`UNIT`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Weights {
     pub(super) red: i32,
     pub(super) blue: i32,
+}
+
+/// The colour of the light in a picture, as the detector takes it out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Light(Weights);
+
+impl Light {
+    /// Of one picture alone.
+    #[must_use]
+    pub fn of(frame: Frame<'_>) -> Self {
+        let mut balance = Balance::default();
+        Self(match frame.order {
+            ChannelOrder::Rgb => balance.look::<0>(frame),
+            ChannelOrder::Bgr => balance.look::<2>(frame),
+        })
+    }
+
+    /// A pixel (red, green, blue) as it would be in white light.
+    #[must_use]
+    pub fn take_out(self, [red, green, blue]: [u8; 3]) -> [u8; 3] {
+        let white = |value: u8, weight: i32| (i32::from(value) * weight / UNIT).min(255) as u8;
+        [white(red, self.0.red), green, white(blue, self.0.blue)]
+    }
+
+    /// What red and blue are multiplied by.
+    #[must_use]
+    pub fn gains(self) -> [f64; 2] {
+        [self.0.red, self.0.blue].map(|weight| f64::from(weight) / f64::from(UNIT))
+    }
+}
+
+impl From<Weights> for Light {
+    fn from(weights: Weights) -> Self {
+        Self(weights)
+    }
 }
 
 /// A weight of one.
@@ -58,6 +93,11 @@ impl Balance {
                 None => seen,
             });
         }
+        self.weights()
+    }
+
+    /// For frames in the light seen so far.
+    pub(super) fn weights(&self) -> Weights {
         match self.ratios {
             Some([red, blue]) if (red - 1.0).abs() > WHITE || (blue - 1.0).abs() > WHITE => {
                 let weight = |ratio: f64| (f64::from(UNIT) / ratio + 0.5) as i32;
@@ -102,7 +142,6 @@ fn estimate<const RED_BYTE: usize>(frame: Frame<'_>) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vision::ChannelOrder;
 
     fn frame(bytes: &[u8]) -> Frame<'_> {
         Frame { width: 320, height: 240, step: 960, order: ChannelOrder::Rgb, bytes }
@@ -128,6 +167,15 @@ mod tests {
         check([255, 255, 196], None);
         check([3, 3, 3], None);
         check([20, 200, 20], Some([0.6, 0.28]));
+    }
+
+    #[test]
+    fn the_light_is_taken_out_of_grey() {
+        let lamp = [200, 128, 60];
+        let white = Light::of(frame(&lamp.repeat(320 * 240))).take_out(lamp);
+        assert!(white[0].abs_diff(128) < 4 && white[1] == 128 && white[2].abs_diff(128) < 4, "{white:?}");
+        let grey = [150, 150, 145];
+        assert_eq!(Light::of(frame(&grey.repeat(320 * 240))).take_out(grey), grey);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 mod complete;
 
-use super::balance::{Balance, UNIT, Weights};
+use super::balance::{Balance, Light, UNIT, Weights};
 use super::blob::Tracer;
 use super::centroid;
 use super::chroma::{Classifier, Colour, ColourLimits};
@@ -121,6 +121,34 @@ impl Detector {
         }
         discs.clear();
         discs.extend(found.into_iter().map(|found| found.disc));
+    }
+
+    /// The colour of every pixel of a frame, row by row, in the light of the frame that was looked at last: 0 none, 1 yellow, 2 blue.
+    /// For those who want to see what the limits cover; finding discs looks at few pixels only.
+    pub fn cover(&self, frame: Frame<'_>, colours: &mut Vec<u8>) {
+        colours.clear();
+        match frame.order {
+            ChannelOrder::Rgb => self.cover_with::<0>(frame, colours),
+            ChannelOrder::Bgr => self.cover_with::<2>(frame, colours),
+        }
+    }
+
+    fn cover_with<const RED: usize>(&self, frame: Frame<'_>, colours: &mut Vec<u8>) {
+        let weights = self.balance.weights();
+        let number = |pixel: &[u8]| match self.classifier.classify::<RED>([pixel[0], pixel[1], pixel[2]], weights) {
+            Some(Colour::Yellow) => 1,
+            Some(Colour::Blue) => 2,
+            None => 0,
+        };
+        for v in 0..frame.height {
+            colours.extend(frame.row(v).chunks_exact(3).map(number));
+        }
+    }
+
+    /// The colour of the light, as the frames so far tell it.
+    #[must_use]
+    pub fn light(&self) -> Light {
+        self.balance.weights().into()
     }
 
     fn scan<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, found: &mut Vec<Found>) {

@@ -101,6 +101,17 @@ impl<'a> Frame<'a> {
         }
     }
 
+    /// Puts its pixels into `rgb`: red, green, blue, without gaps.
+    pub fn to_rgb(&self, rgb: &mut Vec<u8>) {
+        rgb.clear();
+        for v in 0..self.height {
+            rgb.extend_from_slice(self.row(v));
+        }
+        if self.order == ChannelOrder::Bgr {
+            rgb.chunks_exact_mut(3).for_each(<[u8]>::reverse);
+        }
+    }
+
     /// Whether a disc at `centre` with these half axes (pixels) is in the picture as a whole.
     pub(super) fn holds(&self, centre: Pixel, half: [f64; 2]) -> bool {
         let inside = |place: f64, half: f64, size: usize| place > half + 1.0 && place + half + 2.0 < size as f64;
@@ -119,6 +130,18 @@ mod tests {
 
     const MONO: &str =
         "the encoding is \"mono8\", it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours";
+
+    #[test]
+    fn pixels_leave_as_red_green_blue() {
+        let bytes = [1, 2, 3, 4, 5, 6, 99, 7, 8, 9, 10, 11, 12, 99];
+        let check = |encoding: &str, expected: [u8; 12]| {
+            let (mut room, mut rgb) = (Vec::new(), vec![7]);
+            Frame::new([2, 2], encoding, [2, 2], 7, &bytes, &mut room).unwrap().to_rgb(&mut rgb);
+            assert_eq!(rgb, expected, "{encoding}");
+        };
+        check("rgb8", [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+        check("bgr8", [3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10]);
+    }
 
     #[test]
     fn errors_say_what_is_wrong() {

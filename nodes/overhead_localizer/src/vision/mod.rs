@@ -16,6 +16,7 @@ mod partner;
 mod rim;
 mod yuyv;
 
+pub use balance::Light;
 pub use chroma::{Colour, ColourLimits};
 pub use detector::{Detector, Disc, Expectation};
 pub use frame::{ChannelOrder, Frame, FrameError};

@@ -1,0 +1,54 @@
+//! What the page asks for.
+
+use serde::Deserialize;
+
+/// Yellow or blue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Which {
+    Yellow,
+    Blue,
+}
+
+/// A command of the page, as JSON: `{"click": {...}}`, `"undo"` and so on.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub(super) enum Command {
+    /// This pixel of this picture is in the middle of a disc.
+    Click { which: Which, u: f64, v: f64, shot: u64 },
+    /// Forget the last click, or the last frames learned from.
+    Undo,
+    /// Learn from the discs that are found in the next frames.
+    Gather,
+    /// These limits, set by hand.
+    Limits { yellow: f64, blue: f64, minimum: f64 },
+    /// Keep this picture, or go on.
+    Hold(bool),
+    /// Write the colour file.
+    Save,
+    /// Have the running localizer take these limits.
+    Apply,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_are_read_and_nonsense_is_not() {
+        let check = |text: &str, expected: Option<Command>| {
+            assert_eq!(serde_json::from_str(text).ok(), expected, "{text}");
+        };
+        let click = Command::Click { which: Which::Blue, u: 3.5, v: 4.0, shot: 7 };
+        check(r#"{"click": {"which": "blue", "u": 3.5, "v": 4, "shot": 7}}"#, Some(click));
+        check(r#""undo""#, Some(Command::Undo));
+        check(r#"{"hold": true}"#, Some(Command::Hold(true)));
+        check(
+            r#"{"limits": {"yellow": 0.3, "blue": 0.4, "minimum": 30}}"#,
+            Some(Command::Limits { yellow: 0.3, blue: 0.4, minimum: 30.0 }),
+        );
+        for nonsense in ["{}", "[]", r#""fly""#, r#"{"click": {"which": "red", "u": 1, "v": 1, "shot": 1}}"#] {
+            check(nonsense, None);
+        }
+    }
+}
