@@ -7,11 +7,13 @@
 //! | what changed since a browser last asked, as JSON | [`Snapshot`], [`Seen`] |
 //! | the last minute, for browsers that come late and for jumps in a bag | `history` |
 //! | a bag in memory, and one browser's way through it | [`Recording`], [`Player`] |
-//! | the page itself: HTML, style, scripts, all inside the program | [`page`] |
+//! | what the page of colours asks for | [`colours`] |
+//! | the pages themselves: HTML, style, scripts, all inside the program | [`page`] |
 //!
 //! Nothing here waits, reads a clock or knows a socket: `trench view` does.
 
 mod alarms;
+pub mod colours;
 mod control;
 mod formation;
 mod history;

@@ -1,7 +1,6 @@
 //! `trench calibrate live`: the camera's picture on a page, what the limits of the colours cover on it, and clicks that teach them.
 
 mod bench;
-mod command;
 mod eye;
 mod lessons;
 mod node;

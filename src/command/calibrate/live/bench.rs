@@ -1,14 +1,14 @@
 //! The work itself: frames in, clicks in, limits and pictures out. Reads no clock and no socket.
 
-use super::command::Command;
 use super::eye::{Eye, Seen};
 use super::lessons::{Count, Lessons};
 use super::shot::Shot;
 use super::table::Message;
-use serde::Serialize;
+use serde_json::json;
 use std::collections::VecDeque;
 use trench_calibrate::Colours;
 use trench_harness::vision::{Colour, Disc};
+use trench_view::colours::Command;
 
 /// A click may mean one of so many pictures: the newest ones.
 const RECENT: usize = 4;
@@ -16,7 +16,7 @@ const RECENT: usize = 4;
 const FRAMES: u32 = 10;
 
 /// What the work is for.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 pub(super) struct Names {
     /// By the lens file.
     pub(super) camera: String,
@@ -26,7 +26,7 @@ pub(super) struct Names {
 }
 
 /// What the person is told.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default)]
 struct Note {
     /// good, or bad
     level: &'static str,
@@ -57,24 +57,6 @@ pub(super) struct Bench {
     /// Frames a second.
     rate: f64,
     note: Note,
-}
-
-/// What the page knows of a picture besides the picture.
-#[derive(Serialize)]
-struct Header<'a> {
-    names: &'a Names,
-    shot: u64,
-    size: [usize; 2],
-    half: [f64; 2],
-    /// Colour (1 yellow, 2 blue), column, row, confidence.
-    discs: Vec<(u8, f64, f64, f64)>,
-    limits: [f64; 3],
-    lessons: Count,
-    gathers: u32,
-    held: bool,
-    rate: f64,
-    light: [f64; 2],
-    note: &'a Note,
 }
 
 impl Bench {
@@ -212,24 +194,26 @@ impl Bench {
     /// What a browser gets: the lengths of header and picture (u32, little endian), the header as JSON, the picture as JPEG,
     /// what is covered as PNG.
     pub(super) fn message(&self) -> Message {
+        // Colour (1 yellow, 2 blue), column, row, confidence.
         let disc =
             |disc: &Disc| (1 + u8::from(disc.colour == Colour::Blue), disc.centre.u, disc.centre.v, disc.confidence);
-        let header = Header {
-            names: &self.names,
-            shot: self.recent.front().map_or(0, |shot| shot.number),
-            size: self.eye.size(),
-            half: self.eye.half(),
-            discs: self.seen.discs.iter().map(disc).collect(),
-            limits: [self.limits.yellow, self.limits.blue, self.limits.minimum],
-            lessons: self.lessons.count(),
-            gathers: self.gathers,
-            held: self.held,
-            rate: self.rate,
-            light: self.eye.light().gains(),
-            note: &self.note,
-        };
-        // Numbers and texts: it cannot fail.
-        let header = serde_json::to_vec(&header).unwrap_or_default();
+        let Names { camera, out, localizer, .. } = &self.names;
+        let Count { yellow, blue } = self.lessons.count();
+        let header = json!({
+            "names": { "camera": camera, "out": out, "localizer": localizer },
+            "shot": self.recent.front().map_or(0, |shot| shot.number),
+            "size": self.eye.size(),
+            "half": self.eye.half(),
+            "discs": self.seen.discs.iter().map(disc).collect::<Vec<_>>(),
+            "limits": [self.limits.yellow, self.limits.blue, self.limits.minimum],
+            "lessons": { "yellow": yellow, "blue": blue },
+            "gathers": self.gathers,
+            "held": self.held,
+            "rate": self.rate,
+            "light": self.eye.light().gains(),
+            "note": { "level": self.note.level, "text": self.note.text },
+        });
+        let header = header.to_string().into_bytes();
         let length = |part: &[u8]| (part.len() as u32).to_le_bytes();
         let lengths = [length(&header), length(&self.jpeg)].concat();
         [lengths.as_slice(), &header, &self.jpeg, &self.overlay].concat().into()

@@ -1,10 +1,10 @@
 //! What the localizer sees in a frame: its own detector, its own limits.
 
-use super::command::Which;
 use super::shot::Shot;
 use image::RgbImage;
 use trench_calibrate::{Colours, Samples};
 use trench_harness::vision::{Colour, ColourLimits, Detector, Disc, Expectation, Light};
+use trench_view::colours::Which;
 
 /// Looks at frames of one camera.
 pub(super) struct Eye {

@@ -10,7 +10,7 @@ const MOST: usize = 64;
 pub(super) struct Lessons(Vec<Samples>);
 
 /// How many clicks or frames told of each colour.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Count {
     pub(super) yellow: usize,
     pub(super) blue: usize,

@@ -1,7 +1,6 @@
 //! What goes through a browser's WebSocket: it asks for each picture with an empty message when it has drawn the one before;
 //! everything else that it says is a command.
 
-use super::command::Command;
 use super::table::Table;
 use crate::command::web::{PATIENCE, Places};
 use axum::Router;
@@ -12,6 +11,7 @@ use axum::response::Response;
 use axum::routing::get;
 use std::sync::Arc;
 use tokio::time::timeout;
+use trench_view::colours::Command;
 use trench_view::page;
 
 /// The page's files.

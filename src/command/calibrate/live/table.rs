@@ -1,10 +1,10 @@
 //! Where the node that sees and the server that shows meet.
 
 use super::bench::Bench;
-use super::command::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::watch;
+use trench_view::colours::Command;
 
 /// What a browser gets at once: see `message.rs`.
 pub(super) type Message = Arc<[u8]>;

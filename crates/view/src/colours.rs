@@ -1,27 +1,45 @@
-//! What the page asks for.
+//! What the page of `trench calibrate live` asks for.
 
 use serde::Deserialize;
 
 /// Yellow or blue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Which {
+pub enum Which {
+    /// In front.
     Yellow,
+    /// Behind.
     Blue,
 }
 
 /// A command of the page, as JSON: `{"click": {...}}`, `"undo"` and so on.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub(super) enum Command {
+pub enum Command {
     /// This pixel of this picture is in the middle of a disc.
-    Click { which: Which, u: f64, v: f64, shot: u64 },
+    Click {
+        /// The disc's colour.
+        which: Which,
+        /// Column.
+        u: f64,
+        /// Row.
+        v: f64,
+        /// The picture's number.
+        shot: u64,
+    },
     /// Forget the last click, or the last frames learned from.
     Undo,
     /// Learn from the discs that are found in the next frames.
     Gather,
     /// These limits, set by hand.
-    Limits { yellow: f64, blue: f64, minimum: f64 },
+    Limits {
+        /// Least (R + G - 2 B) / (R + G + B) of yellow.
+        yellow: f64,
+        /// Least (2 B - R - G) / (R + G + B) of blue.
+        blue: f64,
+        /// Least absolute difference of either, of 510.
+        minimum: f64,
+    },
     /// Keep this picture, or go on.
     Hold(bool),
     /// Write the colour file.
