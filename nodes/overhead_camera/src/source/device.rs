@@ -6,11 +6,10 @@
 
 use super::controls::Controls;
 use super::decode::{self, decode};
+use super::driver::{Driver, Streaming, Video4Linux2, Wanted};
 use super::{FrameSource, SourceError, Taken};
 use crate::frame::{Encoding, Frame};
-use linuxvideo::format::{PixFormat, PixelFormat as FourCc};
-use linuxvideo::stream::ReadStream;
-use linuxvideo::{Device, Fract};
+use linuxvideo::format::PixelFormat as FourCc;
 use std::io;
 use trench_core::{RosTime, Steady, Times};
 
@@ -53,13 +52,13 @@ pub struct DeviceSource {
     format: PixelFormat,
     exposure_delay: f64,
     controls: Controls,
+    driver: Box<dyn Driver>,
     open: Option<Open>,
     next_look: Steady,
 }
 
 struct Open {
-    stream: ReadStream,
-    step: u32,
+    device: Streaming,
     rhythm: Rhythm,
 }
 
@@ -67,53 +66,51 @@ impl DeviceSource {
     /// The camera at `path`: frames of `size` (width, height), `rate` of them a second.
     #[must_use]
     pub fn new(path: &str, size: [u32; 2], rate: f64, format: PixelFormat, exposure_delay: f64) -> Self {
-        let controls = Controls::default();
-        Self { path: path.to_owned(), size, rate, format, exposure_delay, controls, open: None, next_look: Steady(0) }
+        Self {
+            path: path.to_owned(),
+            size,
+            rate,
+            format,
+            exposure_delay,
+            controls: Controls::default(),
+            driver: Box::new(Video4Linux2),
+            open: None,
+            next_look: Steady(0),
+        }
     }
 
     fn open(&self, now: Steady) -> io::Result<Open> {
-        let [width, height] = self.size;
-        let device = Device::open(&self.path)?.video_capture(PixFormat::new(width, height, self.format.code()))?;
-        let given = device.format();
-        if [given.width(), given.height()] != self.size || given.pixel_format() != self.format.code() {
-            return Err(io::Error::other(format!(
-                "it offers {} x {} {}, not {width} x {height} {}",
-                given.width(),
-                given.height(),
-                given.pixel_format(),
-                self.format.code()
-            )));
-        }
-        self.controls.apply(&self.path).map_err(io::Error::other)?;
-        let step = given.bytes_per_line();
-        let asked = Fract::new(1000, (1000.0 * self.rate) as u32);
-        // A driver that has one rate only refuses to be asked.
-        let interval = device.set_frame_interval(asked).unwrap_or(asked);
-        let period = f64::from(interval.numerator()) / f64::from(interval.denominator().max(1));
-        Ok(Open { stream: device.into_stream()?, step, rhythm: Rhythm::new(now, period) })
+        let wanted = Wanted { size: self.size, rate: self.rate, code: self.format.code() };
+        let device = self.driver.open(&self.path, wanted, &self.controls)?;
+        Ok(Open { rhythm: Rhythm::new(now, device.period), device })
     }
 
     /// Takes the frame that is ready, if one is.
     fn look(&mut self, now: Times, give: &mut dyn FnMut(Frame<'_>)) -> io::Result<Result<Taken, SourceError>> {
         let Some(open) = &mut self.open else { return Ok(Ok(Taken::NotYet)) };
-        let is_there = !open.stream.will_block()?;
+        let is_there = open.device.buffers.is_ready()?;
         let (is_known, next_look) = open.rhythm.look(now.steady, is_there);
         self.next_look = next_look;
         match (is_there, is_known) {
             (true, true) => {}
             (true, false) => {
-                open.stream.dequeue(|_| Ok(()))?;
+                open.device.buffers.take(&mut |_, _| ())?;
                 return Ok(Ok(Taken::NotYet));
             }
             (false, _) if open.rhythm.silence(now.steady) < SILENCE => return Ok(Ok(Taken::NotYet)),
             (false, _) => return Err(io::Error::other(format!("no frame for {SILENCE} s"))),
         }
         let exposed = now.ros.plus_seconds(-self.exposure_delay);
-        let (step, format, size) = (open.step, self.format, self.size);
-        let damaged = || SourceError::Frame("the camera says that a frame is damaged".to_owned());
-        open.stream.dequeue(|view| {
-            Ok(if view.is_error() { Err(damaged()) } else { hand_over(&view, exposed, step, format, size, give) })
-        })
+        let (step, format, size) = (open.device.step, self.format, self.size);
+        let mut taken = Ok(Taken::NotYet);
+        open.device.buffers.take(&mut |filled, is_damaged| {
+            taken = if is_damaged {
+                Err(SourceError::Frame("the camera says that a frame is damaged".to_owned()))
+            } else {
+                hand_over(filled, exposed, step, format, size, give)
+            };
+        })?;
+        Ok(taken)
     }
 }
 
@@ -218,97 +215,4 @@ impl FrameSource for DeviceSource {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_device_that_is_none_is_looked_for_again() {
-        for path in ["/dev/null", "/dev/no-such-camera"] {
-            let mut source = DeviceSource::new(path, [768, 576], 30.0, PixelFormat::Jpeg, 0.0);
-            source.start(Steady(5));
-            let mut look = |nanoseconds| {
-                let now = Times { ros: RosTime(0), steady: Steady(nanoseconds) };
-                source.take(now, &mut |frame| panic!("{frame:?}")).map_err(|error| error.to_string())
-            };
-            assert_eq!(look(4), Ok(Taken::NotYet));
-            for due in [5, 500_000_005] {
-                let error = look(due).unwrap_err();
-                assert!(error.starts_with(&format!("cannot open {path}: ")), "{error}");
-                assert_eq!(look(due + 400_000_000), Ok(Taken::NotYet));
-            }
-        }
-    }
-
-    /// What becomes of a buffer: size, step, encoding and first bytes of the frame, or the reason why there is none.
-    fn handed_over(filled: &[u8], step: u32, format: PixelFormat) -> Result<(u32, u32, Encoding, Vec<u8>), String> {
-        let mut frame = None;
-        let exposed = RosTime(7);
-        let taken = hand_over(filled, exposed, step, format, [16, 8], &mut |given| {
-            given.check(Some([16, 8]), 4096).unwrap();
-            assert_eq!(given.exposed, exposed);
-            frame = Some((given.width, given.step, given.encoding, given.pixels[..3].to_vec()));
-        });
-        taken.map_err(|error| error.to_string()).map(|taken| {
-            assert_eq!(taken, Taken::Frame);
-            frame.unwrap()
-        })
-    }
-
-    #[test]
-    fn buffers_become_frames() {
-        let raw = PixelFormat::Raw;
-        // Drivers' buffers are longer than their frames, and rows may be padded.
-        assert_eq!(
-            handed_over(&[9; 512], 32, raw(Encoding::Yuv422Yuy2)),
-            Ok((16, 32, Encoding::Yuv422Yuy2, vec![9; 3]))
-        );
-        assert_eq!(handed_over(&[9; 512], 64, raw(Encoding::Rgb8)), Ok((16, 64, Encoding::Rgb8, vec![9; 3])));
-        assert_eq!(
-            handed_over(&[9; 511], 64, raw(Encoding::Bgr8)),
-            Err("a frame has 511 bytes, 512 are needed".to_owned())
-        );
-        let mut jpeg = std::io::Cursor::new(Vec::new());
-        let picture = image::RgbImage::from_pixel(16, 8, image::Rgb([90; 3]));
-        picture.write_to(&mut jpeg, image::ImageFormat::Jpeg).unwrap();
-        let jpeg = jpeg.into_inner();
-        assert_eq!(handed_over(&jpeg, 0, PixelFormat::Jpeg), Ok((16, 48, Encoding::Rgb8, vec![90; 3])));
-        assert!(handed_over(&jpeg[..20], 0, PixelFormat::Jpeg).unwrap_err().starts_with("a frame: "));
-    }
-
-    /// How many of the frames that arrive every `actual` (s) in ten seconds are taken, by a device that says `told`.
-    fn taken(told: f64, actual: f64, hold_up: Option<f64>) -> (u32, u32) {
-        let mut rhythm = Rhythm::new(Steady(0), told);
-        let (mut now, mut taken, mut looks, mut held_up) = (Steady(0), 0, 0, hold_up);
-        let mut arrivals = (1..).map(|frame| Steady((1e9 * actual * f64::from(frame)) as u64)).peekable();
-        while now < Steady(10_000_000_000) {
-            looks += 1;
-            let arrival = arrivals.next_if(|arrival| *arrival <= now);
-            let (is_known, next) = rhythm.look(now, arrival.is_some());
-            if is_known {
-                taken += 1;
-                assert!(now.seconds_since(arrival.unwrap()) <= KNOWN, "stamped at {now:?}: {arrival:?}");
-            }
-            now = next.max(Steady(now.0 + 20_000));
-            if let Some(seconds) = held_up.take_if(|_| now > Steady(5_000_000_000)) {
-                now = now.plus_seconds(seconds);
-            }
-        }
-        (taken, looks)
-    }
-
-    #[test]
-    fn arrivals_are_known_whatever_the_device_says_of_its_rate() {
-        let check = |told: f64, actual: f64, hold_up: Option<f64>, dropped: u32| {
-            let (taken, looks) = taken(told, actual, hold_up);
-            let frames = (10.0 / actual) as u32;
-            assert!(taken + dropped >= frames - 1, "{taken} of {frames}, told {told} s, are {actual} s apart");
-            assert!(looks < 12 * frames + 200, "{looks} looks for {frames} frames");
-        };
-        check(0.033, 0.033, None, 0);
-        check(0.033, 0.0333, None, 0);
-        check(0.033, 0.04, None, 0);
-        check(0.04, 0.033, None, 1);
-        check(0.1, 0.0167, None, 12);
-        check(0.033, 0.0333, Some(0.15), 6);
-    }
-}
+mod tests;

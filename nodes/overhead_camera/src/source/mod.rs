@@ -4,6 +4,7 @@ mod bag;
 mod controls;
 mod decode;
 mod device;
+mod driver;
 mod folder;
 mod natural_order;
 mod pace;
