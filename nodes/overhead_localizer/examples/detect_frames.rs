@@ -4,6 +4,9 @@
 //! `detect_frames FOLDER [SCALE [ROBOTS]]` writes `frames.rgb` (rgb8, one after the other; 768 x 576, or 1920 x 1080 with the
 //! scale 2.5) and `truth.csv` (frame, colour, u, v) there and prints `{"frames": .., "found": .., "expected": .., "rms_px": .., "median_us": .., "p99_us": ..}`.
 
+mod bed;
+
+use bed::{poses, scaled};
 use overhead_localizer::vision::{Colour, ColourLimits, Detector, Expectation, Frame};
 use std::error::Error;
 use std::fmt::Write as _;
@@ -11,7 +14,7 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
-use trench_optics::{Camera, CameraInfo, Lens, Mount, Pad, Pixel, Pose2};
+use trench_optics::{Camera, CameraInfo, Mount, Pad, Pixel, Pose2};
 use trench_sim::camera::{Appearance, Background, Renderer, Scene};
 
 const PASSES: usize = 20;
@@ -81,32 +84,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         quantile(0.99)
     );
     Ok(())
-}
-
-/// The same view in more pixels; 1920 x 1080 of 2.5 times as many, which cuts it above and below.
-fn scaled(lens: Lens, scale: f64) -> Lens {
-    let width = (scale * f64::from(lens.width)) as u32;
-    let height = if scale > 1.5 { width * 9 / 16 } else { (scale * f64::from(lens.height)) as u32 };
-    let middle = |size: u32| 0.5 * f64::from(size) - 0.5;
-    let off = [lens.cx - middle(lens.width), lens.cy - middle(lens.height)].map(|off| scale * off);
-    let (cx, cy) = (middle(width) + off[0], middle(height) + off[1]);
-    Lens { width, height, fx: scale * lens.fx, fy: scale * lens.fy, cx, cy, ..lens }
-}
-
-/// Robots on their way over the part of the field that both cameras see, apart from each other.
-fn poses(index: u32, robots: u32) -> Vec<Vec<Pose2>> {
-    let columns = if robots > 6 { 5 } else { 3 };
-    let rows = robots.div_ceil(columns);
-    let cell = [2.16 / f64::from(columns), 1.08 / f64::from(rows)];
-    (0..robots)
-        .map(|robot| {
-            let step = f64::from(index) + 0.37 * f64::from(robot);
-            let within = |cell: f64, part: f64| 0.09 + (cell - 0.18).max(0.0) * part.fract();
-            let x = 0.16 + cell[0] * f64::from(robot % columns) + within(cell[0], 0.618_034 * step);
-            let y = 0.375 + cell[1] * f64::from(robot / columns) + within(cell[1], 0.414_214 * step);
-            vec![Pose2 { x, y, theta: 2.399_963 * step }]
-        })
-        .collect()
 }
 
 fn discs(camera: &Camera, robots: &[Vec<Pose2>]) -> Vec<(Colour, Pixel)> {
