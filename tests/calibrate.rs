@@ -190,6 +190,17 @@ fn live_a_running_localizer_takes_what_was_found() {
 
     let (code, said) = localizer.apply(path, &["--mount", "mount.yaml", "--colours", "colours.yaml"]);
     assert!(code == Some(0) && said.contains("colours are in force"), "{code:?} {said}");
+    // Another camera: neither alone, both together.
+    let lens = CameraInfo { name: "another".to_owned(), lens: Lens::nominal() };
+    std::fs::write(path.join("another.yaml"), lens.to_yaml()).unwrap();
+    let (code, said) = localizer.apply(path, &["--lens", "another.yaml"]);
+    assert!(code == Some(1) && said.contains("those of the camera overhead, not of another"), "{code:?} {said}");
+    let (code, said) = localizer.apply(path, &["--lens", "another.yaml", "--colours", "theirs.yaml"]);
+    assert!(code == Some(0) && said.contains("colours are in force"), "{code:?} {said}");
+    let lens = CameraInfo { name: "overhead".to_owned(), ..lens };
+    std::fs::write(path.join("overhead.yaml"), lens.to_yaml()).unwrap();
+    let (code, said) = localizer.apply(path, &["--lens", "overhead.yaml", "--colours", "colours.yaml"]);
+    assert!(code == Some(0), "{code:?} {said}");
     let (code, said) = localizer.apply(path, &["--colours", "theirs.yaml"]);
     assert!(code == Some(1) && said.contains("not the colours of the camera"), "{code:?} {said}");
     let (code, said) = localizer.apply(path, &["--lens", "lens.yaml"]);

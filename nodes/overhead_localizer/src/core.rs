@@ -5,7 +5,7 @@ use crate::gather::{Gather, Look};
 use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
 use crate::report::{PERIOD, Report};
-use crate::settings::{Input, Settings, descriptors};
+use crate::settings::{Input, Pattern, Settings, descriptors, foreign};
 use crate::stream::Stream;
 use crate::track::{MapDisc, Tracker};
 use crate::{markers, messages, naming, pads, recalibrate};
@@ -116,6 +116,9 @@ impl OverheadLocalizer {
         }
         match (taken, gather) {
             (Ok(Some((stamp, interval))), None) => {
+                if self.settings.pattern != Pattern::Discs {
+                    return self.coded(at, stamp, interval, source.sequence, sink);
+                }
                 let discs: Vec<MapDisc> = sightings.iter().map(|sighting| sighting.disc).collect();
                 self.step(at, stamp, interval, source.sequence, &discs, sink);
             }
@@ -128,6 +131,17 @@ impl OverheadLocalizer {
             (Ok(None), Some(_)) => stream.stale += 1,
             (Err(reason), _) => self.report.reject(reason, sink),
         }
+    }
+
+    /// Coded pads that were found in a frame of the only camera.
+    fn coded(&mut self, at: Times, stamp: Time, interval: f64, number: u64, sink: &mut dyn Sink) {
+        let Some(intake) = self.intakes.first() else { return };
+        let (pads, twice) = pads::named(intake.coded(), &self.settings.pad_ids);
+        if let Some(id) = twice {
+            self.report.reject(format!("two pads have the code {id}: neither is taken"), sink);
+        }
+        self.tracker.step_pads(interval, &pads);
+        self.told(at, stamp, number, pads.len(), sink);
     }
 
     /// A look of several cameras; its frames are counted by exposure.
@@ -168,6 +182,13 @@ impl OverheadLocalizer {
         let pad = self.settings.team.pad;
         let mut settings = self.settings.clone();
         settings.cameras = recalibrate::cameras(&self.settings.cameras, &request, pad.height)?;
+        if let Some(other) = foreign(&settings.colours_of, &settings.cameras) {
+            return Err(format!(
+                "the colours in force are those of the camera {}, not of {other}: give its colours together with its lens, or set \
+                 colour.camera to nothing",
+                settings.colours_of
+            ));
+        }
         self.intakes = intakes(&settings).ok_or("a camera would not see a pad below it")?;
         let before = &self.settings.cameras;
         self.tracker.remap(|pose| recalibrate::moved(before, &settings.cameras, &pad, pose));

@@ -1,7 +1,8 @@
 //! From an incoming message to discs on the map.
 
-use crate::settings::{Input, Settings};
+use crate::settings::{Input, Pattern, Settings};
 use crate::track::MapDisc;
+use crate::vision::coded::{CodeReader, CodedPad, MIDDLE};
 use crate::vision::{Colour, Detector, Disc, Expectation, Frame, decode};
 use trench_core::{Qos, RosTime, Subscribe};
 use trench_msgs::Message;
@@ -9,7 +10,7 @@ use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::msg::{Disc as DiscMessage, DiscArray, PadArray};
 use trench_msgs::sensor_msgs::{CompressedImage, Image, ImageView};
 use trench_msgs::std_msgs::HeaderView;
-use trench_optics::{Camera, Overhead, Pixel};
+use trench_optics::{Camera, Overhead, Pad, Pixel};
 
 /// More discs than any detector finds pads for: such a message is broken.
 const MOST_DISCS: usize = 1024;
@@ -30,6 +31,9 @@ pub(crate) struct Intake {
     radius: f64,
     input: Input,
     detector: Detector,
+    /// Of coded pads: the colour of their middles, and who reads them.
+    codes: Option<(Colour, CodeReader)>,
+    coded: Vec<CodedPad>,
     /// Pixels of frames that cannot be read in place.
     room: Vec<u8>,
     found: Vec<Disc>,
@@ -39,10 +43,18 @@ impl Intake {
     /// None if the camera could not see any pad.
     pub(crate) fn new(settings: &Settings, view: &Overhead) -> Option<Self> {
         let (camera, pad) = (view.camera.clone(), &settings.team.pad);
-        let expectation = Expectation::new(&camera, pad)?;
+        let middle = match settings.pattern {
+            Pattern::Discs => None,
+            Pattern::Coded(colour) => Some(colour),
+        };
+        let disc_diameter = if middle.is_some() { MIDDLE } else { pad.disc_diameter };
+        let expectation = Expectation::new(&camera, &Pad { disc_diameter, ..*pad })?;
         let detector = Detector::new(&settings.colours, expectation);
+        let detector = if middle.is_some() { detector.of_single_discs() } else { detector };
+        let codes = middle.map(|colour| (colour, CodeReader::new(camera.clone(), pad.height)));
         let (pad_height, input, radius) = (pad.height, settings.input, 0.5 * expectation.width);
-        Some(Self { camera, pad_height, radius, input, detector, room: Vec::new(), found: Vec::new() })
+        let (room, found, coded) = (Vec::new(), Vec::new(), Vec::new());
+        Some(Self { camera, pad_height, radius, input, detector, codes, coded, room, found })
     }
 
     /// What it reads.
@@ -91,6 +103,11 @@ impl Intake {
         }
     }
 
+    /// The coded pads of the last frame.
+    pub(crate) fn coded(&self) -> &[CodedPad] {
+        &self.coded
+    }
+
     fn size(&self) -> [usize; 2] {
         let lens = self.camera.lens();
         [lens.width as usize, lens.height as usize]
@@ -107,6 +124,12 @@ impl Intake {
             .map_err(|error| error.to_string())?;
         let Some(interval) = is_new(RosTime::from(&stamp)) else { return Ok(None) };
         self.detector.detect(frame, &mut self.found);
+        if let Some((colour, reader)) = &self.codes {
+            self.found.retain(|disc| disc.colour == *colour);
+            let light = self.detector.light();
+            self.coded.clear();
+            self.coded.extend(self.found.iter().filter_map(|disc| reader.read(frame, light, disc.centre)));
+        }
         discs.clear();
         discs.extend(self.found.iter().filter_map(|disc| self.sighting(disc.colour, disc.centre)));
         Ok(Some((stamp, interval)))

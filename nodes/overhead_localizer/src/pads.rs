@@ -1,6 +1,7 @@
 //! Pads that another vision system has found: SSL-Vision's robots, AprilTags, anything that knows poses and perhaps names.
 
 use crate::track::{NamedPose, wrap};
+use crate::vision::coded::CodedPad;
 use trench_msgs::Message;
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::msg::{Pad, PadArray};
@@ -34,4 +35,14 @@ pub(crate) fn read(cdr: &[u8], ids: &[i64]) -> Result<(Time, Vec<NamedPose>), St
         pads.push((Pose2 { x, y, theta: wrap(theta) }, robot));
     }
     Ok((message.header.stamp, pads))
+}
+
+/// The robots (their places in `ids`) whose codes were read, and a code that two pads have: neither of them is believed.
+pub(crate) fn named(coded: &[CodedPad], ids: &[i64]) -> (Vec<NamedPose>, Option<u32>) {
+    let count = |id: u32| coded.iter().filter(|pad| pad.id == id).count();
+    let twice = coded.iter().map(|pad| pad.id).find(|id| count(*id) > 1);
+    let robot = |pad: &CodedPad| ids.iter().position(|own| *own == i64::from(pad.id));
+    let once = coded.iter().filter(|pad| count(pad.id) == 1);
+    // Codes that are nobody's are of other teams' robots.
+    (once.filter_map(|pad| Some((pad.pose, Some(robot(pad)?)))).collect(), twice)
 }

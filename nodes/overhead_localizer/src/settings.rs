@@ -1,7 +1,7 @@
 //! The localizer's parameters.
 
 use crate::track::{self, Motion, Names, Robot};
-use crate::vision::ColourLimits;
+use crate::vision::{Colour, ColourLimits};
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
 use trench_optics::{Overhead, Pad, Pose2};
@@ -19,8 +19,19 @@ pub(crate) enum Input {
     Pads,
 }
 
+/// What is on the robots' backs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pattern {
+    /// A yellow disc in front, a blue one behind: all robots look alike.
+    Discs,
+    /// The Small Size League's, with a middle of this colour: codes name the robots.
+    Coded(Colour),
+}
+
 /// What a detector's centres of discs are taken to be off by, m: 0.0185 pixel of the test bed's camera, as the own one's.
 const DETECTED_SIGMA: f64 = 6e-5;
+/// What makes coded pads that are found here off by 0.1 mm and 0.002 rad, m.
+const CODED_SIGMA: f64 = 1.5e-4;
 /// What makes another system's pads off by 1.3 mm and 0.03 rad, m: the Small Size League's cameras.
 const PADS_SIGMA: f64 = 1.8e-3;
 
@@ -31,6 +42,7 @@ pub(crate) struct Settings {
     /// Frames whose stamps differ by less are of one exposure, s.
     pub(crate) together: f64,
     pub(crate) input: Input,
+    pub(crate) pattern: Pattern,
     pub(crate) noise_seed: u64,
     /// So many equal frames in a row are a frozen camera.
     pub(crate) frozen: u32,
@@ -38,6 +50,8 @@ pub(crate) struct Settings {
     pub(crate) pad_ids: Vec<i64>,
     pub(crate) team: track::Settings,
     pub(crate) colours: ColourLimits,
+    /// The camera whose colours these are, by its lens file; empty: any.
+    pub(crate) colours_of: String,
 }
 
 pub(crate) fn descriptors() -> Vec<P> {
@@ -50,7 +64,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             "m, m, rad: x, y, theta of each robot at the start, in the order of `robots`; empty: see `names`",
         )
         .read_only(),
-        P::integer_list("pad_ids", &[], "codes of the pads on /overhead/pads, in the order of `robots`; empty: 1, 2, 3 and so on")
+        P::integer_list("pad_ids", &[], "codes of the pads on /overhead/pads, or of the Small Size League's patterns, in the order of `robots`; empty: 1, 2, 3 and so on")
             .range(0.0, 65_535.0)
             .read_only(),
         P::string("camera_info_file", "", "lens file in ROS's camera_info format (config/cameras); {camera} in it stands for the name of one of several").read_only(),
@@ -63,6 +77,13 @@ pub(crate) fn descriptors() -> Vec<P> {
             "image",
             "image: find discs in /overhead/image_raw; compressed: in /overhead/image_raw/compressed (PNG or JPEG); \
              detections: take /overhead/detections; pads: take /overhead/pads",
+        )
+        .read_only(),
+        P::string(
+            "pad.pattern",
+            "discs",
+            "discs: a yellow disc in front, a blue one behind; ssl_yellow, ssl_blue: the Small Size League's, with this colour in the middle, \
+             whose codes name the robots (pad_ids)",
         )
         .read_only(),
         P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0).read_only(),
@@ -152,8 +173,10 @@ impl Settings {
                 ));
             }
         };
+        let pattern = pattern(parameters, input, cameras.len())?;
         let mut settings = Self {
             cameras,
+            pattern,
             together: parameters.f64("cameras.together")?,
             input,
             noise_seed: parameters.usize("added_noise.seed")? as u64,
@@ -161,6 +184,7 @@ impl Settings {
             pad_ids: pad_ids(parameters)?,
             team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },
             colours: ColourLimits::default(),
+            colours_of: String::new(),
         };
         settings.tune(parameters)?;
         Ok(settings)
@@ -168,7 +192,11 @@ impl Settings {
 
     /// Takes what may change while the node runs; on an error nothing changes.
     pub(crate) fn tune(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
-        check_colours(parameters, &self.cameras)?;
+        let colours_of = parameters.str("colour.camera")?;
+        if let Some(other) = foreign(colours_of, &self.cameras) {
+            let problem = format!("these are not the colours of the camera {other}");
+            return Err(parameters.error("colour.camera", problem, "learn them by `trench calibrate colours`"));
+        }
         let colours = ColourLimits {
             yellow_ratio: parameters.f64("colour.yellow")?,
             blue_ratio: parameters.f64("colour.blue")?,
@@ -181,6 +209,7 @@ impl Settings {
                 known if known > 0.0 => known,
                 _ if self.input == Input::Detections => DETECTED_SIGMA,
                 _ if self.input == Input::Pads => PADS_SIGMA,
+                _ if self.pattern != Pattern::Discs => CODED_SIGMA,
                 _ => track::Settings::FOUND_SIGMA,
             },
             added_sigma: parameters.f64_array("added_noise.sigma")?,
@@ -199,7 +228,28 @@ impl Settings {
             ..self.team.clone()
         };
         (self.colours, self.team, self.frozen) = (colours, team, frozen);
+        self.colours_of = colours_of.to_owned();
         Ok(())
+    }
+}
+
+fn pattern(parameters: &Parameters, input: Input, cameras: usize) -> Result<Pattern, ConfigError> {
+    let pattern = match parameters.str("pad.pattern")? {
+        "discs" => return Ok(Pattern::Discs),
+        "ssl_yellow" => Pattern::Coded(Colour::Yellow),
+        "ssl_blue" => Pattern::Coded(Colour::Blue),
+        _ => return Err(parameters.error("pad.pattern", "is no pattern", "write discs, ssl_yellow or ssl_blue")),
+    };
+    match input {
+        Input::Image | Input::Compressed if cameras == 1 => Ok(pattern),
+        Input::Image | Input::Compressed => Err(parameters.error(
+            "pad.pattern",
+            "codes are read below one camera alone",
+            "write discs, or mount one camera",
+        )),
+        Input::Detections | Input::Pads => {
+            Err(parameters.error("pad.pattern", "codes are read in images", "write discs, or the input image"))
+        }
     }
 }
 
@@ -248,12 +298,8 @@ fn robots(parameters: &Parameters) -> Result<Vec<Robot>, ConfigError> {
     Ok(robots)
 }
 
-/// Whether the colours are those of the cameras, as far as their file says it.
-fn check_colours(parameters: &Parameters, cameras: &[Overhead]) -> Result<(), ConfigError> {
-    let colours_of = parameters.str("colour.camera")?;
-    if let Some(other) = cameras.iter().find(|view| !colours_of.is_empty() && view.lens_name != colours_of) {
-        let problem = format!("these are not the colours of the camera {}", other.lens_name);
-        return Err(parameters.error("colour.camera", problem, "learn them by `trench calibrate colours`"));
-    }
-    Ok(())
+/// The camera whose colours these are not, as far as their file says whose they are.
+pub(crate) fn foreign<'a>(colours_of: &str, cameras: &'a [Overhead]) -> Option<&'a str> {
+    let other = cameras.iter().find(|view| !colours_of.is_empty() && view.lens_name != colours_of);
+    other.map(|view| view.lens_name.as_str())
 }

@@ -21,6 +21,17 @@ const SILENT: u8 = 2;
 /// Places in `Interface::clients`.
 const CALIBRATION: usize = 0;
 const COLOURS: usize = 1;
+/// Its parameter, the camera whose colours are in force.
+const COLOURS_OF: &str = "colour.camera";
+
+/// What was asked for last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Step {
+    /// Colours that are of no camera, so that a lens of another one fits.
+    Free,
+    Calibration,
+    Colours,
+}
 
 /// Gives a running localizer another lens, place of the camera or colours, each as a whole: in force from the next frame on, or
 /// refused with the reason. Let robots stand meanwhile. Exit code 1: refused; 2: nobody answers; 3: a file
@@ -100,7 +111,7 @@ fn build(_: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<
         ..Interface::default()
     };
     let colours = SetParametersAtomicallyRequest { parameters: colours };
-    Ok(Box::new(Apply { interface, calibration, colours }))
+    Ok(Box::new(Apply { interface, calibration, colours, step: None }))
 }
 
 /// What a parameter file says of the localizer, checked as the localizer would at its start.
@@ -138,23 +149,38 @@ struct Apply {
     interface: Interface,
     calibration: SetCalibrationRequest,
     colours: SetParametersAtomicallyRequest,
+    step: Option<Step>,
 }
 
 impl Apply {
-    fn has_calibration(&self) -> bool {
-        !(self.calibration.camera_info.is_empty() && self.calibration.mount.is_empty())
-    }
-
-    /// Asks for what comes behind step `done`, or ends.
-    fn go_on(&self, done: Option<usize>, sink: &mut dyn Sink) {
-        match done {
-            None if self.has_calibration() => sink.call(CALIBRATION, &self.calibration),
-            None | Some(CALIBRATION) if !self.colours.parameters.is_empty() => sink.call(COLOURS, &self.colours),
-            _ => sink.exit(0),
+    /// Whether anything has to be asked for in this step.
+    fn has(&self, step: Step) -> bool {
+        let (lens, colours) = (!self.calibration.camera_info.is_empty(), !self.colours.parameters.is_empty());
+        match step {
+            Step::Free => lens && colours,
+            Step::Calibration => lens || !self.calibration.mount.is_empty(),
+            Step::Colours => colours,
         }
     }
 
-    fn answered(&self, client: usize, cdr: Option<&[u8]>, sink: &mut dyn Sink) {
+    /// Asks for what comes next, or ends.
+    fn go_on(&mut self, sink: &mut dyn Sink) {
+        let steps = [Step::Free, Step::Calibration, Step::Colours];
+        let behind = steps.iter().position(|step| Some(*step) == self.step).map_or(0, |index| index + 1);
+        self.step = steps.into_iter().skip(behind).find(|step| self.has(*step));
+        match self.step {
+            Some(Step::Free) => {
+                let value = parameter_message(&ParameterValue::String(String::new()));
+                let free = Parameter { name: COLOURS_OF.to_owned(), value };
+                sink.call(COLOURS, &SetParametersAtomicallyRequest { parameters: vec![free] });
+            }
+            Some(Step::Calibration) => sink.call(CALIBRATION, &self.calibration),
+            Some(Step::Colours) => sink.call(COLOURS, &self.colours),
+            None => sink.exit(0),
+        }
+    }
+
+    fn answered(&mut self, client: usize, cdr: Option<&[u8]>, sink: &mut dyn Sink) {
         let answer = cdr.and_then(|cdr| match client {
             CALIBRATION => SetCalibrationResponse::decode(cdr).ok().map(|answer| (answer.success, answer.message)),
             _ => {
@@ -165,8 +191,10 @@ impl Apply {
         });
         match answer {
             Some((true, message)) => {
-                sink.log(Level::Info, &message);
-                self.go_on(Some(client), sink);
+                if self.step != Some(Step::Free) {
+                    sink.log(Level::Info, &message);
+                }
+                self.go_on(sink);
             }
             Some((false, reason)) => {
                 sink.log(Level::Error, &format!("refused: {reason}"));
@@ -191,7 +219,7 @@ impl NodeCore for Apply {
 
     fn handle(&mut self, _: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Started => self.go_on(None, sink),
+            Event::Started => self.go_on(sink),
             Event::Response { client, cdr } => self.answered(client, cdr, sink),
             _ => {}
         }

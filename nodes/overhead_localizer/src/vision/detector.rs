@@ -92,6 +92,8 @@ pub struct Detector {
     expectation: Expectation,
     stride: usize,
     balance: Balance,
+    /// Whether discs come in pairs.
+    paired: bool,
 }
 
 impl Detector {
@@ -100,7 +102,14 @@ impl Detector {
     pub fn new(limits: &ColourLimits, expectation: Expectation) -> Self {
         // Two looks across the smallest disc.
         let stride = (0.4 * expectation.width.min(expectation.height)) as usize;
-        Self { classifier: Classifier::new(limits), expectation, stride: stride.max(1), balance: Balance::default() }
+        let (classifier, balance) = (Classifier::new(limits), Balance::default());
+        Self { classifier, expectation, stride: stride.max(1), balance, paired: true }
+    }
+
+    /// For discs that stand alone: none is looked for where a partner would be.
+    #[must_use]
+    pub fn of_single_discs(self) -> Self {
+        Self { paired: false, ..self }
     }
 
     /// Puts the discs of `frame` into `discs`, in the order of their topmost look. Discs cut by the image's edge are left
@@ -111,16 +120,22 @@ impl Detector {
             ChannelOrder::Rgb => {
                 let weights = self.balance.look::<0>(frame);
                 self.scan::<0>(frame, weights, &mut found);
-                self.complete::<0>(frame, weights, &mut found);
+                self.complete_pairs::<0>(frame, weights, &mut found);
             }
             ChannelOrder::Bgr => {
                 let weights = self.balance.look::<2>(frame);
                 self.scan::<2>(frame, weights, &mut found);
-                self.complete::<2>(frame, weights, &mut found);
+                self.complete_pairs::<2>(frame, weights, &mut found);
             }
         }
         discs.clear();
         discs.extend(found.into_iter().map(|found| found.disc));
+    }
+
+    fn complete_pairs<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, found: &mut Vec<Found>) {
+        if self.paired {
+            self.complete::<RED>(frame, weights, found);
+        }
     }
 
     /// The colour of every pixel of a frame, row by row, in the light of the frame that was looked at last: 0 none, 1 yellow, 2 blue.

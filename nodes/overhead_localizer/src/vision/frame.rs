@@ -26,7 +26,7 @@ pub struct Frame<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FrameError {
     /// Not one of the encodings that can be read.
-    #[error("the encoding is {0:?}, it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours")]
+    #[error("the encoding is {0:?}, it must be rgb8, bgr8 or yuv422_yuy2: {remedy}", remedy = remedy(.0))]
     Encoding(String),
     /// Two pixels share their colour, and one has no partner.
     #[error("the frame has rows of {0} pixels, yuv422_yuy2 needs an even number")]
@@ -57,6 +57,17 @@ pub enum FrameError {
         /// What is there.
         actual: usize,
     },
+}
+
+/// What to do about frames of this encoding.
+fn remedy(encoding: &str) -> &'static str {
+    if encoding.starts_with("mono") {
+        "pads are told by their colours; set the camera to one of these (grey pictures serve `trench calibrate lens`)"
+    } else if encoding.starts_with("bayer") {
+        "let image_proc make colours of it, or set the camera to one of these"
+    } else {
+        "set the camera to one of these"
+    }
 }
 
 impl<'a> Frame<'a> {
@@ -128,8 +139,12 @@ impl<'a> Frame<'a> {
 mod tests {
     use super::*;
 
-    const MONO: &str =
-        "the encoding is \"mono8\", it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours";
+    const MONO: &str = "the encoding is \"mono8\", it must be rgb8, bgr8 or yuv422_yuy2: pads are told by their colours; \
+                        set the camera to one of these (grey pictures serve `trench calibrate lens`)";
+    const BAYER: &str = "the encoding is \"bayer_rggb8\", it must be rgb8, bgr8 or yuv422_yuy2: \
+                         let image_proc make colours of it, or set the camera to one of these";
+    const OTHER: &str =
+        "the encoding is \"32FC1\", it must be rgb8, bgr8 or yuv422_yuy2: set the camera to one of these";
 
     #[test]
     fn pixels_leave_as_red_green_blue() {
@@ -154,6 +169,8 @@ mod tests {
         check("rgb8", [8, 4], 24, 96, None);
         check("bgr8", [8, 4], 32, 120, None);
         check("mono8", [8, 4], 8, 32, Some(MONO));
+        check("bayer_rggb8", [8, 4], 8, 32, Some(BAYER));
+        check("32FC1", [8, 4], 32, 128, Some(OTHER));
         check("yuv422_yuy2", [8, 4], 16, 64, None);
         check("yuv422_yuy2", [8, 4], 15, 64, Some("the step is 15 bytes, a row of 8 pixels needs 16"));
         check("yuv422_yuy2", [8, 4], 16, 63, Some("the frame has 63 bytes, 64 are needed"));

@@ -7,6 +7,7 @@ mod balance;
 mod blob;
 mod centroid;
 mod chroma;
+pub mod coded;
 mod detector;
 mod faint;
 mod frame;

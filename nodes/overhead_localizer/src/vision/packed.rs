@@ -9,7 +9,7 @@ use image::RgbImage;
 pub fn decode(bytes: &[u8]) -> Result<RgbImage, String> {
     let image = image::load_from_memory(bytes).map_err(|error| error.to_string())?;
     if !image.color().has_color() {
-        return Err("the image is grey: pads are told by their colours".to_owned());
+        return Err("the image is grey: pads are told by their colours; set the camera to colours".to_owned());
     }
     Ok(image.into_rgb8())
 }

@@ -23,6 +23,8 @@ const FEWEST_EACH: usize = 6;
 const MOST_BEYOND: usize = 3;
 /// The whole is so large, as expected.
 const SIZE: [f64; 2] = [0.95, 1.05];
+/// What is within so much of a circle's radius is surely inside.
+const INNER: f64 = 0.85;
 /// Of each disc at least this part is seen.
 const SEEN: f64 = 0.3;
 
@@ -72,12 +74,8 @@ pub(super) fn fit<const RED: usize>(
     let centres = [0, 1].map(|index| pad.centre(index));
     let (mut seen, mut colours, mut contrast) = ([0.0; 2], [[0; 3]; 2], [0; 2]);
     for (index, tracer) in tracers.into_iter().enumerate() {
-        let level = tracer_level(tracer, centres[index], half)?;
-        let centre = [centres[index].x * half[0], centres[index].y * half[1]];
-        contrast[index] = 2 * level;
-        let inner = half.map(|axis| 0.85 * size * axis);
-        seen[index] = rim::cover(tracer, centre, inner, level);
-        colours[index] = mean_pixel(tracer, centre, inner, level);
+        let look = Look::at(tracer, centres[index], half, INNER * size)?;
+        (contrast[index], seen[index], colours[index]) = (2 * look.level, look.seen, look.colour);
     }
     let fits = on_rim[0] + on_rim[1] >= FEWEST
         && on_rim.iter().all(|count| *count >= FEWEST_EACH)
@@ -92,20 +90,51 @@ pub(super) fn fit<const RED: usize>(
 fn tracer_level<const RED: usize>(tracer: &Tracer<'_, RED>, centre: Vector2<f64>, half: [f64; 2]) -> Option<i32> {
     let mut chroma = Vec::new();
     rim::for_ellipse([centre.x * half[0], centre.y * half[1]], half, |u, v| chroma.push(tracer.chroma(u, v)));
+    level(&mut chroma)
+}
+
+fn level(chroma: &mut [i32]) -> Option<i32> {
     let rank = chroma.len() * 4 / 5;
     (rank < chroma.len()).then(|| *chroma.select_nth_unstable(rank).1 / 2)
 }
 
-/// The mean of the pixels in an ellipse that have a disc's colour.
-fn mean_pixel<const RED: usize>(tracer: &Tracer<'_, RED>, centre: [f64; 2], half: [f64; 2], level: i32) -> [u8; 3] {
-    let (mut count, mut sum) = (0_u32, [0_u32; 3]);
-    rim::for_ellipse(centre, half, |u, v| {
-        if let Some(pixel) = tracer.pixel(u, v).filter(|_| tracer.chroma(u, v) >= level) {
+/// What the pixels of a disc say, each read once.
+struct Look {
+    /// Half the disc's chroma.
+    level: i32,
+    /// The part of the disc that has it, 0..1.
+    seen: f64,
+    /// The mean of the pixels that have it.
+    colour: [u8; 3],
+}
+
+impl Look {
+    /// At the circle around `centre` (radii of the expected size); what is within `inner` of its radius is surely inside.
+    fn at<const RED: usize>(
+        tracer: &Tracer<'_, RED>,
+        centre: Vector2<f64>,
+        half: [f64; 2],
+        inner: f64,
+    ) -> Option<Self> {
+        let (mut all, mut inside) = (Vec::new(), Vec::new());
+        rim::for_ellipse([centre.x * half[0], centre.y * half[1]], half, |u, v| {
+            let chroma = tracer.chroma(u, v);
+            all.push(chroma);
+            let away = Vector2::new(u as f64 / half[0], v as f64 / half[1]) - centre;
+            if away.norm_squared() <= inner * inner {
+                inside.push((chroma, tracer.pixel(u, v)));
+            }
+        });
+        let level = level(&mut all)?;
+        let coloured = || inside.iter().filter(|(chroma, _)| *chroma >= level);
+        let (mut count, mut sum) = (0_u32, [0_u32; 3]);
+        for pixel in coloured().filter_map(|(_, pixel)| *pixel) {
             count += 1;
             sum = [0, 1, 2].map(|channel| sum[channel] + u32::from(pixel[channel]));
         }
-    });
-    sum.map(|total| (total / count.max(1)) as u8)
+        let seen = coloured().count() as f64 / inside.len().max(1) as f64;
+        Some(Self { level, seen, colour: sum.map(|total| (total / count.max(1)) as u8) })
+    }
 }
 
 /// Two circles of one size; places in radii of the expected size.

@@ -61,6 +61,21 @@ fn robots_keep_their_names_when_the_map_moves_below_them() {
 }
 
 #[test]
+fn a_lens_of_another_camera_than_the_colours_is_refused() {
+    let lens = |name: &str| {
+        let camera_info = CameraInfo { name: name.to_owned(), ..CameraInfo::parse("", LENS).unwrap() }.to_yaml();
+        SetCalibrationRequest { camera_info, ..SetCalibrationRequest::default() }
+    };
+    let mut core = build("    colour.camera: overhead\n").unwrap();
+    let refused = ask(core.as_mut(), &lens("lab"));
+    let reason = "the colours in force are those of the camera overhead, not of lab: give its colours together";
+    assert!(!refused.success && refused.message.contains(reason), "{refused:?}");
+    assert!(ask(core.as_mut(), &lens("overhead")).success);
+    // Colours that are nobody's are anybody's.
+    assert!(ask(build("").unwrap().as_mut(), &lens("lab")).success);
+}
+
+#[test]
 fn what_does_not_fit_is_refused_with_the_reason_and_changes_nothing() {
     let renderer = Renderer::new(camera(), Pad::NOMINAL, Appearance::default());
     let mut core = build("").unwrap();
