@@ -143,6 +143,30 @@ fn a_crash_loop_is_bounded_and_reported() {
 }
 
 #[test]
+fn a_process_that_somebody_stops_is_named() {
+    let run = Run::start("- executable: {cmd: sleep 60, name: sleeper}\n");
+    let log = run.wait_for(&["process started with pid ["]);
+    let pid = log.split("pid [").nth(1).and_then(|rest| rest.split(']').next()).unwrap().parse().unwrap();
+    let pid = Pid::from_raw(pid).unwrap();
+    let wait_for = |text: &str, times: usize| {
+        let start = Instant::now();
+        while run.log().matches(text).count() < times {
+            assert!(start.elapsed() < PATIENCE, "{text} not {times} times in:\n{}", run.log());
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    };
+    for times in 1..=2 {
+        kill_process(pid, Signal::STOP).unwrap();
+        wait_for("[sleeper-1]: process was stopped by a signal", times);
+        kill_process(pid, Signal::CONT).unwrap();
+        wait_for("[sleeper-1]: process goes on", times);
+    }
+    run.signal(Signal::INT);
+    let (code, _, log) = run.finish();
+    assert_eq!((code, log.matches("process was stopped by a signal").count()), (Some(0), 2), "{log}");
+}
+
+#[test]
 fn a_process_is_started_again_as_often_as_asked() {
     let (code, _, log) =
         run("- node: {exec: \"true\", respawn: \"true\", respawn_delay: 0.01, respawn_max_retries: 2}\n");

@@ -1,8 +1,10 @@
 """Does what a fault of the matrix says, from outside the nodes; each gives when it began and was over (s, wall clock)."""
 
 import os
+import re
 import signal
 import subprocess
+import threading
 import time
 from pathlib import Path
 
@@ -29,19 +31,59 @@ def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float
         # What it is about was done before the run.
         return time.time(), time.time()
     if "fill" in fault:
-        return fill(launched)
+        return fill(fault, launched)
     if "clock" in fault:
         return clock(fault, launched)
     began = inject.INJECTIONS[fault["publish"]](ears, fault["for"])
     return began, time.time()
 
 
+class Watch:
+    """Waits beside what is done until the launcher names a process; then `fault["reported"]` is how long that took, s."""
+
+    # Longer than a report may take, s, and how often it is looked for.
+    PATIENCE, GLANCE = 1.0, 0.01
+
+    def __init__(self, fault: dict, launched: Launched, pid: int, what: str):
+        label = next((label for label, known in launched.processes().items() if known == pid), None)
+        self.fault, self.launched = fault, launched
+        self.pattern = None if label is None else rf"\[{re.escape(label.partition(':')[2])}\]: process {what}"
+        self.before = self._count()
+        self.began = time.monotonic()
+        self.thread = threading.Thread(target=self._wait)
+        self.thread.start()
+
+    def _count(self) -> int:
+        return 0 if self.pattern is None else len(re.findall(self.pattern, self.launched.all_logs()))
+
+    def _wait(self) -> None:
+        while time.monotonic() < self.began + self.PATIENCE:
+            if self._count() > self.before:
+                self.fault["reported"] = time.monotonic() - self.began
+                return
+            time.sleep(self.GLANCE)
+
+    def end(self) -> None:
+        """Waits no longer than it may take."""
+        self.thread.join()
+
+
 def kill(fault: dict, launched: Launched) -> tuple[float, float]:
     """kill -9; over when the victim lives again."""
     others = list(launched.processes().values())
     before = launched.all_logs().count("process started with pid")
-    os.kill(launched.pid_of(fault["kill"]), signal.SIGKILL)
+    pid = launched.pid_of(fault["kill"])
+    watch = Watch(fault, launched, pid, "has died")
+    os.kill(pid, signal.SIGKILL)
     began = time.time()
+    try:
+        return killed(fault, launched, others, before, began)
+    finally:
+        watch.end()
+
+
+def killed(fault: dict, launched: Launched, others: list[int], before: int, began: float) -> tuple[float, float]:
+    """Waits until the victim lives again, or the others do not."""
     if fault.get("ends"):
         fault["alive_after"] = outlive(others)
     elif not fault.get("gone"):
@@ -54,16 +96,20 @@ def kill(fault: dict, launched: Launched) -> tuple[float, float]:
 
 def double(fault: dict, launched: Launched) -> tuple[float, float]:
     """The same command line once more: it must be refused."""
-    began = time.time()
     pid = launched.pid_of(fault["double"])
     line = Path(f"/proc/{pid}/cmdline").read_bytes().decode().strip("\0").split("\0")
+    began = time.time()
     second = launched.start(BASE, Path(line[0]).name, *line[1:])
     try:
         fault["code"] = second.wait(3.0)
     except subprocess.TimeoutExpired:
         second.kill()
         fault["code"] = second.wait()
-    return began, time.time()
+    ended = time.time()
+    said = (launched.folder / f"{BASE}-{Path(line[0]).name}.log").read_text(encoding="utf-8", errors="replace")
+    if "another process on this host is" in said:
+        fault["reported"] = ended - began
+    return began, ended
 
 
 def second(fault: dict, launched: Launched) -> tuple[float, float]:
@@ -87,8 +133,9 @@ def serial(fault: dict, launched: Launched) -> tuple[float, float]:
     return began, time.time()
 
 
-def fill(launched: Launched) -> tuple[float, float]:
+def fill(fault: dict, launched: Launched) -> tuple[float, float]:
     """The disk of the recorder is full."""
+    watch = Watch(fault, launched, launched.pid_of(fault["victim"]), "has died")
     began = time.time()
     with open(launched.disk / "filler", "wb", buffering=0) as filler:
         try:
@@ -96,7 +143,12 @@ def fill(launched: Launched) -> tuple[float, float]:
                 filler.write(bytes(4096))
         except OSError:
             pass
-    return began, time.time()
+    ended = time.time()
+    watch.end()
+    if "reported" in fault:
+        # It is full now, and was not before.
+        fault["reported"] = max(0.0, fault["reported"] - (ended - began))
+    return began, ended
 
 
 def clock(fault: dict, launched: Launched) -> tuple[float, float]:
@@ -109,6 +161,7 @@ def clock(fault: dict, launched: Launched) -> tuple[float, float]:
 def pause(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
     """SIGSTOP for a while, in the middle of which the formation may change its size."""
     pid = launched.pid_of(fault["pause"])
+    watch = Watch(fault, launched, pid, "was stopped")
     began = time.time()
     os.kill(pid, signal.SIGSTOP)
     if "scale" in fault:
@@ -116,7 +169,9 @@ def pause(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, fl
         inject.scale_formation(ears, fault["scale"])
     time.sleep(max(0.0, began + fault["for"] - time.time()))
     os.kill(pid, signal.SIGCONT)
-    return began, time.time()
+    ended = time.time()
+    watch.end()
+    return began, ended
 
 
 def network(fault: dict, launched: Launched) -> tuple[float, float]:

@@ -27,6 +27,8 @@ GAP = 1.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
+# Who names a fault elsewhere than on /diagnostics (act.py looks there): the launcher, and a process that refuses to start.
+REPORTERS = ("launcher", "itself")
 # With which a second process of a node ends.
 TAKEN = 5
 
@@ -79,7 +81,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     contacts = [text for at, text in bag.contacts if since <= at <= ended + FORMATION]
     if contacts:
         verdict.problems.append(f"contact: {contacts[0]}")
-    diagnose(bag, fault, began, evidence, verdict)
+    diagnose(bag, fault, began + fault.get("later", 0.0), evidence, verdict)
     if fault.get("ends"):
         if evidence.alive_after is None or evidence.alive_after > ORPHANED:
             verdict.problems.append(f"nodes lived on for {evidence.alive_after} s")
@@ -94,7 +96,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         verdict.stood = standstill(bag, stopped, began, ended)
         if verdict.stood is None or verdict.stood > STANDSTILL:
             verdict.problems.append(f"{', '.join(stopped)} did not stand within {STANDSTILL} s")
-    recover(bag, ended, min(ended + FORMATION, following), verdict)
+    recover(bag, ended, min(ended + FORMATION, following), verdict, settles=not fault.get("unsettled"))
     return verdict
 
 
@@ -108,25 +110,23 @@ def lost_at(evidence: Evidence, began: float) -> float:
 
 
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
-    """When the fault was named."""
+    """When the fault was named, if anybody can know of it (a reason why not is told by `unnamed`)."""
     pattern = fault.get("says")
     if "warns" in fault:
+        pattern = fault["warns"]
         lines = re.findall(r"\[(?:WARN|ERROR)\] \[(\d+\.\d+)\] \[[\w.]+\]: (.*)", evidence.log)
-        times = [float(at) - began for at, text in lines if float(at) >= began and re.search(fault["warns"], text)]
-        verdict.diagnosed = min(times, default=None)
-        if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
-            verdict.problems.append(f"no warning like {fault['warns']!r} within {DIAGNOSTIC} s")
-    if pattern is None:
+        times = [float(at) - began for at, text in lines if float(at) >= began and re.search(pattern, text)]
+    elif pattern in REPORTERS:
+        times = [fault["reported"]] if "reported" in fault else []
+    elif pattern is not None:
+        times = [at - began for at, text, level in bag.diagnostics if at >= began and level != OK and re.search(pattern, text)]
+    else:
+        if "unnamed" not in fault:
+            verdict.problems.append("the matrix does not say what names it, or why nobody can")
         return
-    if pattern == "launcher":
-        if not re.search(r"process has died", evidence.log):
-            verdict.problems.append("the launcher does not name it")
-        return
-    named = (at for at, text, level in bag.diagnostics if at >= began and level != OK and re.search(pattern, text))
-    first = next(named, None)
-    verdict.diagnosed = None if first is None else first - began
-    if first is None or verdict.diagnosed > DIAGNOSTIC:
-        verdict.problems.append(f"no diagnostic like {pattern!r} within {DIAGNOSTIC} s")
+    verdict.diagnosed = min(times, default=None)
+    if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
+        verdict.problems.append(f"nothing like {pattern!r} named it within {DIAGNOSTIC} s")
 
 
 def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float | None:
@@ -149,13 +149,15 @@ def since_when(holds, ended: float, until: float) -> float | None:
     return failed[-1] + 0.05 - ended if failed else 0.0
 
 
-def recover(bag: Run, ended: float, until: float, verdict: Verdict) -> None:
-    """When all robots were driven again, and when the formation stood, for the rest of the time."""
+def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: bool) -> None:
+    """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it."""
     robots = sorted(bag.truth)
     until = min(until, max(series.times[-1] for series in bag.truth.values()), bag.stopped or math.inf)
     verdict.recovered = since_when(lambda at: all(bag.is_driven(robot, at) for robot in robots), ended, until)
     if verdict.recovered is None or verdict.recovered > RECOVERY:
         verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
+    if not settles:
+        return
 
     def stands(at: float) -> bool:
         distances = [bag.distance(robot, at) for robot in robots]

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import verdict
+from judge import REPORTERS
 
 HEAD = """# Faults
 
@@ -13,8 +14,8 @@ the worst of all seeds that were run:
 
 - no contact; no robot moves on information older than 0.25 s and the time it takes to brake; only the victim ends; commands finite and within
   limits; memory grows by less than 10 MB; the bag has no gap of a second;
-- **diagnostic**: the one that names the fault, within 0.5 s; *launcher*: the launcher's own report of the process
-  that died; where nobody can know of it, why;
+- **diagnostic**: the one that names the fault, within 0.5 s; *(launcher)*: the launcher's own report of the process that died or
+  was stopped; *(itself)*: the word of the second process that does not start; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned stand within 0.6 s (0.25 s on old information, then braking) and until the fault is over;
 - **driven**: all robots move again, or are where they are to be, within 2 s of its end (the victim lives again, the injection is off);
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the
@@ -62,7 +63,8 @@ def of(fault: dict, documents: list[dict]) -> list[dict]:
 
 def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date: str) -> str:
     """What came of a fault in all runs in which it was met."""
-    says = worst(met, "diagnosed") or fault.get("says" if fault.get("says") == "launcher" else "unnamed", "")
+    by = f" ({fault['says']})" if fault.get("says") in REPORTERS else ""
+    says = worst(met, "diagnosed") + by if "unnamed" not in fault else f"none: {fault['unnamed']}"
     failed = [told for told in met if told["problems"]]
     notes = [fault["note"]] if "note" in fault else []
     notes += [f"beside another run: {'; '.join(told['problems'])}; alone it is as said here" for told in failed_beside[:1]]

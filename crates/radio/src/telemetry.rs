@@ -24,6 +24,10 @@ impl Fault {
     pub const LOW_BATTERY: Self = Self(4);
     /// The motors were driven beyond their ramp, or blocked.
     pub const MISSED_STEPS: Self = Self(8);
+    /// Since the last report it heard packets without the key's tag: forged ones, or spoilt ones.
+    pub const NOT_AUTHENTIC: Self = Self(16);
+    /// Since the last report it heard authentic packets again that are long over.
+    pub const REPLAYED: Self = Self(32);
 
     /// Whether all bits of `other` are set.
     #[must_use]

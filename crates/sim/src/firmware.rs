@@ -2,8 +2,8 @@
 
 use crate::relay::{Relay, Relayed};
 use trench_radio::{
-    AgeMeter, COUNTER_TICK, Fault, Freshness, Key, MAX_RELAYS, Packet, Payload, Ranges, Relaying, Telemetry, USUAL_AGE,
-    Wheels,
+    AgeMeter, COUNTER_TICK, Fault, Freshness, Key, MAX_RELAYS, Packet, PacketError, Payload, Ranges, Relaying,
+    Telemetry, USUAL_AGE, Wheels,
 };
 
 /// A command is obeyed for at most this long, whatever it says, ns.
@@ -17,6 +17,9 @@ const LOW_BATTERY: u16 = 6800;
 
 /// More steps lost than this between two reports are reported.
 const LOST_STEPS: f64 = 8.0;
+
+/// An authentic packet this far behind the last one, steps of the counter, is no relay's copy: somebody replays it.
+const REPLAYED: u64 = 100 * MILLISECOND / COUNTER_TICK;
 
 const MILLISECOND: u64 = 1_000_000;
 
@@ -51,6 +54,8 @@ pub struct Firmware {
     sent: u64,
     lost_steps_reported: f64,
     rejected: u64,
+    /// What was heard since the last report of who has no key.
+    intrusions: Fault,
 }
 
 impl Firmware {
@@ -73,20 +78,30 @@ impl Firmware {
             sent: 0,
             lost_steps_reported: 0.0,
             rejected: 0,
+            intrusions: Fault::default(),
         }
     }
 
     /// The radio heard a packet: what is to be sent on, if anything.
     pub fn receive(&mut self, now: u64, bytes: &[u8], signal_dbm: i8) -> Option<Relayed> {
         let authentic = self.key.is_some();
-        let Ok(packet) = Packet::decode(bytes, self.key.as_ref()) else {
-            self.rejected += 1;
-            return None;
+        let packet = match Packet::decode(bytes, self.key.as_ref()) {
+            Ok(packet) => packet,
+            Err(error) => {
+                self.rejected += 1;
+                if matches!(error, PacketError::Unauthenticated | PacketError::Tag) {
+                    self.intrusions.set(Fault::NOT_AUTHENTIC);
+                }
+                return None;
+            }
         };
         if matches!(packet.payload, Payload::Telemetry(_)) {
             return self.relay.pass_up(now, &packet, bytes, authentic);
         }
-        if self.freshness.accept(packet.counter, now, authentic).is_err() {
+        if let Err(stale) = self.freshness.accept(packet.counter, now, authentic) {
+            if authentic && stale.last - stale.counter > REPLAYED {
+                self.intrusions.set(Fault::REPLAYED);
+            }
             // A relay's copy of what it has is as expected.
             self.rejected += u64::from(packet.relayed == 0);
             return None;
@@ -145,6 +160,7 @@ impl Firmware {
     /// The report of a telemetry slot.
     pub fn report(&mut self, now: u64, sensors: Sensors, out: &mut Vec<u8>) {
         let mut fault = self.fault;
+        fault.set(std::mem::take(&mut self.intrusions));
         if sensors.battery_mv < LOW_BATTERY {
             fault.set(Fault::LOW_BATTERY);
         }
@@ -237,19 +253,29 @@ mod tests {
     #[test]
     fn forged_replayed_and_foreign_packets_do_not_move_it() {
         let key = Key::new([1; 16]);
-        let check = |counter, sender: Option<&Key>, rejected| {
+        let check = |counter, sender: Option<&Key>, rejected, intrusion: Fault| {
             let mut firmware = Firmware::new(3, Some(key.clone()), 0);
-            send(&mut firmware, 10, 5, drive(0), Some(&key));
+            send(&mut firmware, 10, 500, drive(0), Some(&key));
             send(&mut firmware, 5000, counter, drive(80), sender);
             let moves = firmware.wheels(5001 * MILLISECOND) != Wheels::STOP;
             assert_eq!((moves, firmware.rejected()), (rejected == 0, rejected));
+            let told = |firmware: &mut Firmware| {
+                let mut bytes = Vec::new();
+                firmware.report(5002 * MILLISECOND, Sensors::default(), &mut bytes);
+                let Ok(Packet { payload: Payload::Telemetry(report), .. }) = Packet::decode(&bytes, Some(&key)) else {
+                    unreachable!("a report is telemetry");
+                };
+                report.fault.0 & (Fault::NOT_AUTHENTIC.0 | Fault::REPLAYED.0)
+            };
+            assert_eq!((told(&mut firmware), told(&mut firmware)), (intrusion.0, 0), "told once");
         };
-        let in_time = 5 + 4990 * MILLISECOND / COUNTER_TICK;
-        check(in_time, Some(&key), 0);
-        check(5, Some(&key), 1);
-        check(4, Some(&key), 1);
-        check(in_time, Some(&Key::new([2; 16])), 1);
-        check(in_time, None, 1);
+        let (none, forged, replayed) = (Fault::default(), Fault::NOT_AUTHENTIC, Fault::REPLAYED);
+        let in_time = 500 + 4990 * MILLISECOND / COUNTER_TICK;
+        check(in_time, Some(&key), 0, none);
+        check(500, Some(&key), 1, none);
+        check(400, Some(&key), 1, replayed);
+        check(in_time, Some(&Key::new([2; 16])), 1, forged);
+        check(in_time, None, 1, forged);
     }
 
     #[test]

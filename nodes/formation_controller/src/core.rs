@@ -29,6 +29,10 @@ use trench_msgs::std_msgs::{Bool, Float64, Header};
 /// Between two words of the monitor where nothing changes, s: a little less than a tenth.
 const STABILITY_PERIOD: f64 = 0.095;
 
+/// What is said of a robot that moves otherwise than it is told.
+const STRAYS: &str =
+    "driving, but the robot does not move as told: a wheel slips or is stuck, something holds it, or the radio is gone";
+
 /// Why a message was dropped.
 #[derive(Debug, thiserror::Error)]
 enum Dropped {
@@ -171,6 +175,7 @@ impl FormationController {
         self.send(at, &command, sink);
         self.tell_link(&command);
         let (condition, text) = match &command.hold {
+            None if command.strays => (Condition::Warn, STRAYS.to_owned()),
             None => (Condition::Ok, "driving".to_owned()),
             Some(hold) => (hold.condition(), hold.to_string()),
         };

@@ -18,6 +18,7 @@ mod chain;
 mod core;
 mod deviation;
 mod dynamic;
+mod following;
 mod hold;
 mod identify;
 mod inputs;
@@ -40,5 +41,6 @@ mod track;
 
 pub use crate::core::{FormationController, description};
 pub use deviation::Deviation;
+pub use following::Following;
 pub use law::Law;
 pub use predictor::Predictor;

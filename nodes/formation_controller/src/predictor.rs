@@ -28,6 +28,11 @@ impl Predictor {
         self.sent.iter().rev().find(|(acts, _)| *acts <= time).map_or(Twist::ZERO, |(_, twist)| *twist)
     }
 
+    /// The commands that begin to act between two times.
+    pub(crate) fn between(&self, from: RosTime, until: RosTime) -> impl Iterator<Item = Twist> + '_ {
+        self.sent.iter().filter(move |(acts, _)| *acts > from && *acts < until).map(|(_, twist)| *twist)
+    }
+
     /// The pose at `until` of a robot that was at `pose` at `from` and followed its commands in between.
     #[must_use]
     pub fn predict(&self, mut pose: Pose, from: RosTime, until: RosTime) -> Pose {

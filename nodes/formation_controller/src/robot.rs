@@ -1,7 +1,7 @@
 //! What the robot is known to do, and what its motors can follow.
 
 use crate::hold::Hold;
-use crate::tick::{Command, Tick};
+use crate::tick::{Command, Tick, pose_of};
 use trench_core::{RosTime, Times};
 use trench_formation::kinematics::{Limited, Twist, Wheels, saturate};
 use trench_msgs::msg::{LeaderState, RobotState};
@@ -40,6 +40,11 @@ impl Tick {
         let commands = [self.predictor.in_force(exposure.plus_seconds(-0.15)), self.predictor.in_force(exposure)];
         if self.deviation.observe(exposure, seen, commands) {
             command.limits |= LeaderState::LIMIT_DEVIATES;
+        }
+        if state.status == RobotState::STATUS_TRACKED {
+            command.strays = self.following.observe(exposure, pose_of(state), &self.predictor);
+        } else {
+            self.following.restart();
         }
     }
 

@@ -7,7 +7,7 @@ use crate::monitor::{Monitor, News, Recursion, Watched};
 use crate::robot::DEVIATION;
 use crate::settings::Settings;
 use crate::team_link::TeamLink;
-use crate::{Deviation, Predictor};
+use crate::{Deviation, Following, Predictor};
 use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
 use trench_formation::agent::Agent;
@@ -57,6 +57,8 @@ pub(crate) struct Command {
     /// `LeaderState::LIMIT_*` bits.
     pub(crate) limits: u8,
     pub(crate) hold: Option<Hold>,
+    /// Whether the robot moves otherwise than it is told.
+    pub(crate) strays: bool,
     pub(crate) pose: Option<Pose>,
     pub(crate) wanted: Option<Wanted>,
     /// What the monitor makes of it.
@@ -74,6 +76,7 @@ pub(crate) struct Tick {
     pub(crate) predictor: Predictor,
     pub(crate) team_link: TeamLink,
     pub(crate) deviation: Deviation,
+    pub(crate) following: Following,
     pub(crate) holding: bool,
     pub(crate) last: Option<(RosTime, Wheels)>,
     /// What a dynamic law remembers; none under a kinematic one.
@@ -112,6 +115,7 @@ impl Tick {
             predictor: Predictor::default(),
             team_link: TeamLink::default(),
             deviation: Deviation::new(speed, turn, patience),
+            following: Following::default(),
             holding: false,
             last: None,
             agent,
@@ -158,6 +162,7 @@ impl Tick {
                 command.twist = turn.map_or(Twist::ZERO, |turn| self.followable(turn, acts, &mut command));
                 command.hold = Some(hold);
                 (self.holding, self.reference, self.news) = (false, None, None);
+                self.following.restart();
                 self.monitor.restart();
                 self.recursion.restart();
                 if let Some(agent) = &mut self.agent {
@@ -187,6 +192,7 @@ impl Tick {
             twist: Twist::ZERO,
             limits: 0,
             hold: None,
+            strays: false,
             pose: self.inputs.robot(&self.settings.robot).map(pose_of),
             wanted: None,
             balanced: None,

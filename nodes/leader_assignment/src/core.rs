@@ -61,6 +61,9 @@ pub struct LeaderAssignment {
     localizer: Master,
     /// Who is gone, and who does not hear whom.
     pub(crate) members: Team,
+    /// When the bridge told of a robot's radio last.
+    pub(crate) linked: Option<Steady>,
+    pub(crate) radio_is_silent: bool,
     pub(crate) target: Target,
     pub(crate) targets_refused: u64,
     pub(crate) health: Health,
@@ -98,6 +101,8 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         team: None,
         localizer: Master::default(),
         members: Team::default(),
+        linked: None,
+        radio_is_silent: false,
         targets_refused: 0,
         wakeup: None,
         jumps: JumpWatch::default(),
@@ -155,6 +160,7 @@ impl LeaderAssignment {
             self.members.controller(at, robot, LeaderState::decode(cdr)?);
         } else if let Some(robot) = robots.get(index - robots.len()) {
             self.members.radio(robot, &LinkStatus::decode(cdr)?);
+            self.linked = Some(at.steady);
         }
         Ok(())
     }

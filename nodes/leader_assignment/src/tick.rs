@@ -15,6 +15,9 @@ use trench_plan::Frame;
 /// The shortest time between two pictures for viewers, s; a tick that comes a little early counts as due.
 const PICTURES: f64 = 0.195;
 
+/// The bridge tells of each robot's link ten times a second; without a word of any for so long, s, it is silent.
+const RADIO_SILENCE: f64 = 0.35;
+
 const MAP: &str = "map";
 
 /// Goals of all robots that may ever take part: no message is longer.
@@ -29,6 +32,7 @@ impl LeaderAssignment {
         let stamp = RosTime::from(&team.header.stamp);
         self.target_among(at, stamp, &team, sink);
         self.members.seen(at, &team);
+        self.tell_radio(at.steady);
         self.team = Some(team);
         self.follow_structure(at, sink);
         if self.unlocalised(&self.held.robots).is_empty() && self.run.localised(stamp) {
@@ -39,6 +43,18 @@ impl LeaderAssignment {
             sink.publish(GOALS, goals);
         }
         self.draw(at, stamp, goals.as_ref(), sink);
+    }
+
+    /// Names a bridge that says nothing any more: nobody commands through it.
+    fn tell_radio(&mut self, now: Steady) {
+        let silent = self.linked.is_some_and(|heard| now.seconds_since(heard) > RADIO_SILENCE);
+        if silent {
+            let text = "nothing is heard of any robot's radio: rf_bridge or the air is silent";
+            self.health.set("radio", Condition::Stale, text);
+        } else if std::mem::replace(&mut self.radio_is_silent, false) {
+            self.health.set("radio", Condition::Ok, "heard");
+        }
+        self.radio_is_silent |= silent;
     }
 
     /// Shows viewers the formation, now and then.

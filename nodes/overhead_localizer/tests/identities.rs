@@ -171,6 +171,27 @@ fn robots_that_return_where_they_vanished_are_known_and_two_that_could_be_each_o
 }
 
 #[test]
+fn robots_stand_while_nobody_looks_and_are_known_in_the_next_frame() {
+    let check = |returns: [Pose2; 2], expected: Status| {
+        let at = |frame: i32| [0.6, 1.0].map(|x| Pose2 { x: x + 0.1 * FRAME * f64::from(frame), y: 0.8, theta: 0.0 });
+        let mut random = Random(11);
+        let mut tracker = tracker(&at(0), |_| ());
+        for frame in 0..30 {
+            tracker.step(FRAME, &discs(&at(frame), 0.0, &mut random));
+        }
+        // 15 s without a frame.
+        tracker.step(15.0, &discs(&returns, 0.0, &mut random));
+        for track in tracker.tracks() {
+            assert_eq!(track.status, expected, "{returns:?}");
+        }
+    };
+    let stopped = [0.72, 1.12].map(|x| Pose2 { x, y: 0.8, theta: 0.0 });
+    check(stopped, Status::Tracked);
+    // Put half way between the two, one above the other.
+    check([0.6, 1.0].map(|y| Pose2 { x: 0.92, y, theta: 0.0 }), Status::Ambiguous);
+}
+
+#[test]
 fn without_start_poses_names_go_by_x_once_all_are_there() {
     let names = ["a", "b", "c"].map(|name| Robot { name: name.to_owned(), start: None });
     let mut tracker = Tracker::new(Settings::new(names.to_vec()), 1);

@@ -1,5 +1,6 @@
 //! The node core: what each event leads to.
 
+use crate::channel::Channel;
 use crate::downlink::{Downlink, STREAM};
 use crate::interface::{COMMANDS, DIAGNOSTICS, EMERGENCY_STOP, RUN_STATE};
 use crate::robot::Robot;
@@ -27,6 +28,8 @@ pub struct RfBridge {
     pub(crate) downlink: Downlink,
     pub(crate) decoder: StreamDecoder,
     pub(crate) errors: ErrorCounts,
+    /// Whether the air loses more than it does by chance.
+    pub(crate) channel: Channel,
     /// Who passed the last packet on.
     pub(crate) relays: RelayList,
     pub(crate) open: bool,

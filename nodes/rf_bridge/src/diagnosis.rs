@@ -62,9 +62,14 @@ impl RfBridge {
             ("low battery", self.named(|robot| reports(robot, Fault::LOW_BATTERY))),
             ("missed steps", self.named(|robot| reports(robot, Fault::MISSED_STEPS))),
             ("poor link", self.named(|robot| robot.monitor.is_poor())),
+            ("forged or spoilt packets at", self.named(|robot| reports(robot, Fault::NOT_AUTHENTIC))),
+            ("replayed packets at", self.named(|robot| reports(robot, Fault::REPLAYED))),
         ];
         let named = problems.iter().filter(|(_, robots)| !robots.is_empty());
-        let texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
+        let mut texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
+        if self.channel.is_bad() {
+            texts.push("the channel loses much".to_owned());
+        }
         match texts.as_slice() {
             [] => (Condition::Ok, "all robots are heard".to_owned()),
             texts => (Condition::Warn, texts.join("; ")),

@@ -1,5 +1,6 @@
 //! How the bridge is made and what it is connected to.
 
+use crate::channel::Channel;
 use crate::core::RfBridge;
 use crate::downlink::Downlink;
 use crate::robot::Robot;
@@ -56,6 +57,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         downlink: Downlink::new(settings.key, settings.baud, promised),
         decoder: StreamDecoder::default(),
         errors: ErrorCounts::default(),
+        channel: Channel::default(),
         relays: RelayList::default(),
         open: false,
         running: false,

@@ -14,6 +14,7 @@
 //! not wanted in the present run state becomes silence or zero.
 
 mod broadcast;
+mod channel;
 mod core;
 mod diagnosis;
 mod dither;

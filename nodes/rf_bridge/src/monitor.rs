@@ -46,10 +46,12 @@ impl Monitor {
         result
     }
 
-    /// Takes a report that was accepted. `sent`: the packet that it names as its last, if known.
-    pub(crate) fn update(&mut self, at: Times, report: Telemetry, relayed: u8, sent: Option<Sent>) {
+    /// Takes a report that was accepted; gives how many packets reached the robot since the one before, and how many did
+    /// not. `sent`: the packet that it names as its last, if known.
+    pub(crate) fn update(&mut self, at: Times, report: Telemetry, relayed: u8, sent: Option<Sent>) -> (u64, u64) {
         self.received += 1;
         self.heard = Some(Heard { at: at.steady, ros: at.ros, report, relayed });
+        let before = self.window.back().copied();
         self.window.extend(sent.map(|sent| (at.steady, report.received, sent.before)));
         while self.window.front().is_some_and(|(then, ..)| at.steady.seconds_since(*then) > WINDOW) {
             self.window.pop_front();
@@ -59,6 +61,12 @@ impl Monitor {
             let weight = if self.round_trip == 0.0 { 1.0 } else { SMOOTHING };
             self.round_trip += weight * (round_trip.max(0.0) - self.round_trip);
         }
+        // Of a robot that was silent for long nobody knows why.
+        let before = before.filter(|(then, ..)| at.steady.seconds_since(*then) <= WINDOW);
+        before.zip(sent).map_or((0, 0), |((_, received, sent_before), sent)| {
+            let reached = u64::from(report.received.wrapping_sub(received));
+            (reached, sent.before.saturating_sub(sent_before).saturating_sub(reached))
+        })
     }
 
     /// The last report.

@@ -34,8 +34,11 @@ impl RfBridge {
             return;
         }
         robot.reach.heard(at.steady, packet.relayed);
-        robot.monitor.update(at, telemetry, packet.relayed, sent);
+        let (received, lost) = robot.monitor.update(at, telemetry, packet.relayed, sent);
         robot.odometry.update(&telemetry, self.tuning.half_axle);
+        if self.channel.hear(received, lost) {
+            self.diagnose(at.steady);
+        }
         self.report(at, index, &telemetry, sink);
     }
 

@@ -30,7 +30,7 @@ impl Running {
         let mut child = command.spawn()?;
         let watched = forward_output(process, &mut child, console, alive).and_then(|()| {
             let (pid, label, events) = (Pid::from_child(&child), &process.label, events.clone());
-            std::thread::Builder::new().name(format!("wait {label}")).spawn(move || tell_end(pid, member, &events))
+            std::thread::Builder::new().name(format!("wait {label}")).spawn(move || tell_changes(pid, member, &events))
         });
         let running = Self { pid: Pid::from_child(&child), child };
         if let Err(error) = watched {
@@ -70,10 +70,22 @@ fn forward_output(process: &Process, child: &mut Child, console: &Console, alive
     Ok(())
 }
 
-/// Waits until `pid` ends, without reaping it: until the loop reaps it, its id cannot become another process's.
-fn tell_end(pid: Pid, member: usize, events: &Sender<Event>) {
-    let options = WaitIdOptions::EXITED | WaitIdOptions::NOWAIT;
-    while matches!(rustix::process::waitid(WaitId::Pid(pid), options), Err(rustix::io::Errno::INTR)) {}
+/// Tells of each stop (SIGSTOP) and continuation of `pid`, and of its end without reaping it: until the loop reaps it, its
+/// id cannot become another process's.
+fn tell_changes(pid: Pid, member: usize, events: &Sender<Event>) {
+    let halts = WaitIdOptions::STOPPED | WaitIdOptions::CONTINUED;
+    loop {
+        match rustix::process::waitid(WaitId::Pid(pid), halts | WaitIdOptions::EXITED | WaitIdOptions::NOWAIT) {
+            Err(rustix::io::Errno::INTR) => {}
+            Ok(Some(status)) if status.stopped() || status.continued() => {
+                // Taken, so that it is told once; an end that has come meanwhile is left.
+                if let Ok(Some(taken)) = rustix::process::waitid(WaitId::Pid(pid), halts | WaitIdOptions::NOHANG) {
+                    let _ = events.send(Event::Halted { member, halted: taken.stopped() });
+                }
+            }
+            _ => break,
+        }
+    }
     // The loop may be gone already when the launcher itself ends.
     let _ = events.send(Event::Ended { member });
 }

@@ -127,6 +127,16 @@ impl<'a> Member<'a> {
         }
     }
 
+    /// Names a process that somebody has stopped: it lives and does nothing.
+    pub(super) fn tell_halt(&self, halted: bool, console: &Console) {
+        match halted {
+            true => {
+                console.say("ERROR", self.label(), "process was stopped by a signal and does nothing until SIGCONT")
+            }
+            false => console.say("INFO", self.label(), "process goes on"),
+        }
+    }
+
     /// Takes the exit status of the process, which has ended, and decides whether it lives again.
     pub(super) fn reap(&mut self, console: &Console, options: &Options, run_is_ending: bool) -> Step {
         let State::Running { running, since, ending } = std::mem::replace(&mut self.state, State::Ended) else {

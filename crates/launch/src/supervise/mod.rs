@@ -67,6 +67,8 @@ enum Event {
     Signal,
     /// A process ended; it is not reaped yet.
     Ended { member: usize },
+    /// A process was stopped (SIGSTOP), or goes on.
+    Halted { member: usize, halted: bool },
 }
 
 /// Runs `plan` to its end. SIGINT and SIGTERM to this process end it: all get SIGINT, then SIGTERM, then SIGKILL,
@@ -174,6 +176,7 @@ impl Run<'_> {
             match events.recv_timeout(wait) {
                 Ok(Event::Signal) => self.interrupt(),
                 Ok(Event::Ended { member }) => self.reap(member),
+                Ok(Event::Halted { member, halted }) => self.members[member].tell_halt(halted, &self.console),
                 // The loop itself holds a sender, so the channel cannot be closed.
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
             }

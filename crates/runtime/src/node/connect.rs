@@ -1,5 +1,6 @@
 //! Opening all that a core's interface names.
 
+use super::notices::Notices;
 use super::parameters::NodeParameters;
 use super::reference::{self, ClockReference};
 use super::subscription::Reading;
@@ -152,7 +153,8 @@ pub(crate) fn connect(
         exit: None,
     };
     let subscribed = interface.subscriptions.len();
-    Ok(Node { full_name: node, subscribed, core, reference, time_server, parameters, ports })
+    let notices = Notices::default();
+    Ok(Node { full_name: node, subscribed, core, reference, time_server, parameters, notices, ports })
 }
 
 /// Late joiners get the last lines; as many as rclcpp keeps.

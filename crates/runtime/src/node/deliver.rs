@@ -46,6 +46,7 @@ impl Node {
             }
         }
         self.ask_clock(now);
+        self.tell_notices(now);
         self.open_streams(now);
     }
 

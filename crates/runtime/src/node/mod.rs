@@ -7,6 +7,7 @@ mod deliver;
 mod early;
 mod graph;
 mod held;
+mod notices;
 mod parameters;
 mod ports;
 mod publication;
@@ -21,6 +22,7 @@ pub(crate) use publication::Publication;
 pub(crate) use subscription::Subscription;
 
 use crate::transport::network::ServiceServer;
+use notices::Notices;
 use parameters::NodeParameters;
 use reference::ClockReference;
 use trench_core::NodeCore;
@@ -36,6 +38,7 @@ pub(crate) struct Node {
     /// Tells its time to nodes of other hosts.
     time_server: Option<Box<dyn ServiceServer>>,
     parameters: NodeParameters,
+    notices: Notices,
     ports: Ports,
 }
 

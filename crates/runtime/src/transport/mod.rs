@@ -12,6 +12,7 @@ pub(crate) mod shared_memory;
 mod zenoh;
 
 pub(crate) use backend::Backend;
+pub(crate) use dds::malformed_packets;
 pub(crate) use delivered::Delivered;
 pub use error::TransportError;
 pub use shared_memory::forget_shared_memory;

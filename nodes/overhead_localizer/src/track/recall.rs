@@ -24,7 +24,7 @@ pub struct Remembered {
 }
 
 /// Without the localizer robots stop within this time, s (invariant 8); half of it at their speed is what is expected.
-const STOPPING: f64 = 0.25;
+pub(super) const STOPPING: f64 = 0.25;
 /// What is not known of a speed when the news ended, m/s and rad/s.
 const SPEED: [f64; 2] = [0.05, 0.3];
 /// Afterwards they stand, unless somebody moves them: m/sqrt(s) and rad/sqrt(s).
@@ -32,25 +32,24 @@ const MOVED: [f64; 2] = [0.03, 0.2];
 /// As the measurements that it was known by, and more, m and rad.
 const KNOWN: [f64; 2] = [0.002, 0.02];
 
-impl Remembered {
-    /// Where it is expected `age` (s) later, and how well that is known.
-    fn filter(&self, age: f64) -> Filter {
-        let coasting = 0.5 * STOPPING.min(age);
-        let (ahead, turned) = (self.v * coasting, self.omega * coasting);
-        let heading = self.pose.theta + 0.5 * turned;
-        let expected = Pose2 {
-            x: self.pose.x + ahead * libm::cos(heading),
-            y: self.pose.y + ahead * libm::sin(heading),
-            theta: wrap(self.pose.theta + turned),
-        };
-        let doubt = |axis: usize, speed: f64| {
-            let stopping = (speed.abs() + SPEED[axis]) * coasting;
-            let moved = MOVED[axis] * libm::sqrt(age + self.unseen);
-            libm::sqrt(KNOWN[axis] * KNOWN[axis] + stopping * stopping + moved * moved).min(FARTHEST[axis])
-        };
-        let place = doubt(0, self.v);
-        Filter::new(expected, [place, place, doubt(1, self.omega)])
-    }
+/// Where a robot is expected that was at `pose` with these speeds (m/s, rad/s) `age` (s) ago, when the localizer fell silent,
+/// and had not been seen for `unseen` (s) then; and how well that is known.
+pub(super) fn expected(pose: Pose2, [v, omega]: [f64; 2], age: f64, unseen: f64) -> Filter {
+    let coasting = 0.5 * STOPPING.min(age);
+    let (ahead, turned) = (v * coasting, omega * coasting);
+    let heading = pose.theta + 0.5 * turned;
+    let place = Pose2 {
+        x: pose.x + ahead * libm::cos(heading),
+        y: pose.y + ahead * libm::sin(heading),
+        theta: wrap(pose.theta + turned),
+    };
+    let doubt = |axis: usize, speed: f64| {
+        let stopping = (speed.abs() + SPEED[axis]) * coasting;
+        let moved = MOVED[axis] * libm::sqrt(age + unseen);
+        libm::sqrt(KNOWN[axis] * KNOWN[axis] + stopping * stopping + moved * moved).min(FARTHEST[axis])
+    };
+    let sigma = doubt(0, v);
+    Filter::new(place, [sigma, sigma, doubt(1, omega)])
 }
 
 impl Tracker {
@@ -59,7 +58,7 @@ impl Tracker {
     pub fn recall(&mut self, last: &[Remembered], age: f64) {
         let remember = |track: &Track| match last.iter().find(|robot| robot.name == track.name) {
             Some(robot) => Track {
-                filter: Some(robot.filter(age)),
+                filter: Some(expected(robot.pose, [robot.v, robot.omega], age, robot.unseen)),
                 unseen: robot.unseen + age,
                 in_doubt: robot.in_doubt,
                 ..track.clone()

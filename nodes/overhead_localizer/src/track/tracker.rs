@@ -1,9 +1,10 @@
 //! The team: every robot's identity, status and filter from frame to frame.
 
-use super::filter::{Filter, Motion};
+use super::filter::{Filter, Motion, State};
 use super::identity::Hypotheses;
 use super::one_disc;
 use super::pairing::{self, MapDisc, Pair};
+use super::recall;
 use super::settings::{Names, Settings};
 use super::strangers::Strangers;
 use super::turns::{self, Turn, Turns};
@@ -303,11 +304,18 @@ fn measurement(settings: &Settings) -> Matrix3<f64> {
 }
 
 impl Track {
-    /// Carries the estimate over `dt` (s): in motion while held, at rest afterwards.
+    /// Carries the estimate over `dt` (s): in motion while held, at rest afterwards. Where no frame came for so long that all
+    /// robots have stopped, those seen last stand where they stopped, unless somebody moved them.
     fn advance(&mut self, dt: f64, settings: &Settings) {
         self.was_seen = self.unseen == 0.0;
         let Some(filter) = &mut self.filter else { return };
         if self.unseen == f64::INFINITY {
+            return;
+        }
+        if self.was_seen && dt > recall::STOPPING {
+            let State { pose, v, omega, .. } = *filter.state();
+            *filter = recall::expected(pose, [v, omega], dt, 0.0);
+            self.unseen = dt;
             return;
         }
         let moving = if self.half_seen { dt } else { dt.min((settings.hold - self.unseen).max(0.0)) };

@@ -7,6 +7,7 @@
 mod client;
 mod graph;
 mod long;
+mod malformed;
 mod name;
 mod participant;
 mod pause;
@@ -17,6 +18,7 @@ mod server;
 mod status;
 mod writer;
 
+pub(crate) use malformed::malformed_packets;
 pub(crate) use participant::Participant;
 
 use client::DdsClient;

@@ -47,7 +47,7 @@ impl Host {
         SharedTopic(format!("trench/{}{topic}:{type_name}", self.domain))
     }
 
-    /// Opens a topic for writing messages of `max_len` bytes (longer ones cost a reallocation).
+    /// Opens a topic for writing messages of `max_len` bytes (a longer one costs another memory).
     pub(crate) fn writer(&self, topic: &SharedTopic, max_len: usize, qos: Qos) -> Result<SharedWriter, TransportError> {
         SharedWriter::new(&self.node, &topic.service()?, max_len, qos)
             .map_err(|reason| TransportError::endpoint(&topic.0, &reason))

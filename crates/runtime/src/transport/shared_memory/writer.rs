@@ -15,6 +15,8 @@ use trench_core::{Durability, Qos, Source};
 pub(crate) struct SharedWriter {
     topic: Topic,
     publisher: Publisher<ipc::Service, [u8], Header>,
+    /// The longest message that there is room for, bytes.
+    longest: usize,
     wakeups: event::PortFactory<ipc::Service>,
     notifier: Notifier<ipc::Service>,
 }
@@ -22,15 +24,11 @@ pub(crate) struct SharedWriter {
 impl SharedWriter {
     pub(super) fn new(node: &Node<ipc::Service>, name: &ServiceName, max_len: usize, qos: Qos) -> Result<Self, String> {
         let topic = topic(node, name, Limits::of(max_len, qos), qos)?;
-        let publisher = topic
-            .publisher_builder()
-            .initial_max_slice_len(max_len.max(1))
-            .allocation_strategy(AllocationStrategy::PowerOfTwo)
-            .create()
-            .map_err(|error| format!("{error:?}"))?;
+        let longest = max_len.max(1);
+        let publisher = publisher(&topic, longest, AllocationStrategy::Static)?;
         let wakeups = wakeups(node, name)?;
         let notifier = wakeups.notifier_builder().create().map_err(|error| format!("{error:?}"))?;
-        Ok(Self { topic, publisher, wakeups, notifier })
+        Ok(Self { topic, publisher, longest, wakeups, notifier })
     }
 
     /// How many messages wait for a busy reader before the oldest is overwritten.
@@ -57,12 +55,17 @@ impl SharedWriter {
     /// once more before the readers do. Gives whether all readers that wait for messages were woken: one that died without
     /// a word cannot be, nor one whose files were taken away.
     pub(crate) fn publish_with(
-        &self,
+        &mut self,
         source: Source,
         max_len: usize,
         fill: &mut dyn FnMut(&mut [u8]) -> usize,
         copy: impl FnOnce(&[u8]),
     ) -> Result<bool, String> {
+        if max_len > self.longest {
+            // What grows keeps books for 256 memories of its kind: 9 MB a topic of small messages, which most never need.
+            self.publisher = publisher(&self.topic, max_len, AllocationStrategy::PowerOfTwo)?;
+            self.longest = usize::MAX;
+        }
         let loan = self.publisher.loan_slice_uninit(max_len.max(1)).map_err(|error| format!("{error:?}"))?;
         #[expect(
             unsafe_code,
@@ -82,6 +85,15 @@ impl SharedWriter {
         let woken = self.notifier.notify().map_err(|error| format!("cannot wake the readers: {error:?}"))?;
         Ok(woken >= waiting)
     }
+}
+
+fn publisher(
+    topic: &Topic,
+    longest: usize,
+    strategy: AllocationStrategy,
+) -> Result<Publisher<ipc::Service, [u8], Header>, String> {
+    let builder = topic.publisher_builder().initial_max_slice_len(longest).allocation_strategy(strategy);
+    builder.create().map_err(|error| format!("{error:?}"))
 }
 
 /// Makes the service of a topic or joins it as the first writer made it.

@@ -79,7 +79,11 @@ impl ZenohWriter {
                 zenoh::qos::Reliability::BestEffort
             });
         let publisher = match qos.durability {
-            Durability::Volatile => AnyPublisher::Plain(builder.priority(Priority::DEFAULT).wait()?),
+            // Images and scans let pass what moves robots, wherever both wait for the same link.
+            Durability::Volatile => {
+                let priority = if reliable { Priority::DEFAULT } else { Priority::DataLow };
+                AnyPublisher::Plain(builder.priority(priority).wait()?)
+            }
             Durability::TransientLocal => {
                 let cache = CacheConfig::default().max_samples(qos.depth.max(1));
                 let builder = builder.cache(cache).publisher_detection();
