@@ -1,5 +1,6 @@
 //! Memory of the localizer's core, from images to encoded messages: what it holds after 300 frames, and the most it took
-//! meanwhile, without the frame itself. Linux alone tells it. `memory` prints a table.
+//! meanwhile, without the frame itself. Linux alone tells it. `memory` prints a table; each of its rows is a process of its own,
+//! which finds nothing that others left behind.
 
 mod bed;
 
@@ -31,38 +32,43 @@ impl Files for Texts {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [path, scale, robots, encoding] = arguments.as_slice() {
+        return measure(path, scale.parse()?, robots.parse()?, encoding);
+    }
     println!("| frame, robots | encoding | held, KiB | at most, KiB |\n|---|---|---|---|");
+    let path = std::env::temp_dir().join(format!("trench-memory-{}", std::process::id()));
     for scale in [1.0, 2.5] {
         for robots in [6, 20] {
             for encoding in ["rgb8", "yuv422_yuy2"] {
-                run(scale, robots, encoding)?;
+                std::fs::write(&path, image(scale, robots, encoding)?)?;
+                let mut row = std::process::Command::new(std::env::current_exe()?);
+                row.arg(&path).args([scale.to_string(), robots.to_string(), encoding.to_owned()]).status()?;
             }
         }
     }
-    Ok(())
+    Ok(std::fs::remove_file(path)?)
 }
 
-fn run(scale: f64, robots: u32, encoding: &str) -> Result<(), Box<dyn Error>> {
-    let info = CameraInfo::parse("lens", LENS)?;
-    let lens = scaled(info.lens, scale);
-    let camera = Camera::new(lens, Mount::nominal())?;
-    let renderer = Renderer::new(camera, Pad::NOMINAL, Appearance::default());
+/// A frame as a message.
+fn image(scale: f64, robots: u32, encoding: &str) -> Result<Vec<u8>, Box<dyn Error>> {
+    let lens = scaled(CameraInfo::parse("lens", LENS)?.lens, scale);
+    let renderer = Renderer::new(Camera::new(lens, Mount::nominal())?, Pad::NOMINAL, Appearance::default());
     let mut data = vec![0; renderer.frame_len()];
     renderer.render(Scene { robots: &poses(1, robots), obstacles: &[] }, 1, &mut data)?;
     let bytes = if encoding == "rgb8" { 3 } else { 2 };
     if bytes == 2 {
         data = yuv(&data);
     }
-    let (step, encoding_name) = (bytes * lens.width, encoding.to_owned());
-    let frame = |number: u64| Image {
-        header: Header { stamp: stamp(number).into(), frame_id: "overhead".to_owned() },
-        height: lens.height,
-        width: lens.width,
-        encoding: encoding_name.clone(),
-        is_bigendian: 0,
-        step,
-        data: data.clone(),
-    };
+    let header = Header { stamp: stamp(0).into(), frame_id: "overhead".to_owned() };
+    let (width, height, step) = (lens.width, lens.height, bytes * lens.width);
+    Ok(Image { header, height, width, encoding: encoding.to_owned(), is_bigendian: 0, step, data }.to_cdr())
+}
+
+fn measure(path: &str, scale: f64, robots: u32, encoding: &str) -> Result<(), Box<dyn Error>> {
+    let mut cdr = std::fs::read(path)?;
+    let info = CameraInfo::parse("lens", LENS)?;
+    let lens = scaled(info.lens, scale);
     let texts = Texts { lens: CameraInfo { lens, ..info }.to_yaml(), mount: Mount::nominal().to_yaml() };
     let names: Vec<String> = (1..=robots).map(|robot| format!("robot{robot}")).collect();
     let text = format!(
@@ -70,7 +76,6 @@ fn run(scale: f64, robots: u32, encoding: &str) -> Result<(), Box<dyn Error>> {
          names: order\n    frozen_frames: 0\n",
         names.join(", ")
     );
-    let mut cdr = frame(0).to_cdr();
     // Everything else is there by now: what comes is the core's.
     let before = resident()?.held;
     std::fs::write("/proc/self/clear_refs", "5")?;
