@@ -212,5 +212,6 @@ class Launched:
             subprocess.run(["umount", str(self.disk)], check=True)
         if self.hosts:
             self.hosts.close()
-        for file in Path("/dev/shm").glob(f"{self.shared_memory()}*"):
+        # Not those of a process whose number begins with the digits of ours.
+        for file in Path("/dev/shm").glob(f"trench_*_{self.shared_memory()}[!0-9]*"):
             file.unlink(missing_ok=True)
