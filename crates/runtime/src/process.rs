@@ -2,7 +2,7 @@
 
 use crate::clock::steady_now;
 use crate::node::{Node, Wake};
-use crate::priority::threads_wait_turn;
+use crate::priority::{take_turn, threads_wait_turn};
 use crate::signals::Signals;
 use crate::timer::Timer;
 use crate::topics::Topics;
@@ -92,6 +92,11 @@ impl Process {
 
     /// Runs until a signal or a core ends it; gives the core's exit code, 0 after a signal.
     pub(crate) fn run(mut self) -> io::Result<u8> {
+        // All threads are there.
+        let in_real_time = take_turn();
+        for node in &mut self.nodes {
+            node.debug(if in_real_time { "runs with real-time priority" } else { "runs with ordinary priority" });
+        }
         self.nodes.iter_mut().for_each(Node::start);
         let mut events = Events::with_capacity(256);
         let code = loop {

@@ -2,6 +2,6 @@
 
 fn main() -> std::process::ExitCode {
     // Robots tick on team states, not on goals.
-    trench_runtime::wait_turn(trench_runtime::Turn::Last);
+    trench_runtime::wait_turn(trench_runtime::Turn::Watcher);
     trench_runtime::run_alone(leader_assignment::description())
 }

@@ -36,7 +36,7 @@ pub(super) fn run(hub: Arc<Hub>, robots: &[String], ground_truth: bool, further:
             "--".to_owned(),
         ];
         let arguments = own.into_iter().chain(further.iter().cloned());
-        trench_runtime::wait_turn(trench_runtime::Turn::Last);
+        trench_runtime::wait_turn(trench_runtime::Turn::Watcher);
         match trench_runtime::run_with_arguments(description(), arguments) {
             REJOIN => {}
             code => return code,
