@@ -62,9 +62,21 @@ impl Tick {
     }
 
     fn ramped(&self, wanted: Wheels, acts: RosTime) -> Limited<Wheels> {
-        let (before, current) = self.last.unwrap_or((acts, Wheels::default()));
-        let interval = acts.seconds_since(before).clamp(0.0, 0.1);
+        let (current, interval) = self.since_last(acts);
         self.settings.ramp.limit(current, wanted, interval)
+    }
+
+    /// What the wheels make of a command: the safety filter may ask for more than they can follow, to brake or turn away as
+    /// hard as they can.
+    pub(crate) fn reached(&self, told: Twist, acts: RosTime) -> Wheels {
+        let (current, interval) = self.since_last(acts);
+        self.settings.ramp.reached(current, self.settings.axle.wheels(told), interval)
+    }
+
+    /// The wheels as they are when the next command acts, and how long they will have obeyed the last one, s.
+    fn since_last(&self, acts: RosTime) -> (Wheels, f64) {
+        let (before, current) = self.last.unwrap_or((acts, Wheels::default()));
+        (current, acts.seconds_since(before).clamp(0.0, 0.1))
     }
 }
 

@@ -170,8 +170,9 @@ impl Tick {
                 }
             }
         }
-        self.last = Some((acts, self.settings.axle.wheels(command.twist)));
-        self.predictor.sent(acts, command.twist);
+        let wheels = self.reached(command.twist, acts);
+        self.last = Some((acts, wheels));
+        self.predictor.sent(acts, self.settings.axle.twist(wheels));
         command
     }
 

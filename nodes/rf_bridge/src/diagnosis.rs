@@ -26,6 +26,10 @@ impl RfBridge {
         self.health.value("commands", "expired", self.robots.iter().map(|robot| robot.expired).sum::<u64>());
         let (condition, text) = self.of_links(now);
         self.health.set("links", condition, text);
+        // A part of its own: another word on links that are bad already would wait.
+        let (condition, text) =
+            if self.channel.is_bad() { (Condition::Warn, "much is lost") } else { (Condition::Ok, "in order") };
+        self.health.set("air", condition, text);
         let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
         let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();
         self.health.value("links", "relays", relays.join(", "));
@@ -66,10 +70,7 @@ impl RfBridge {
             ("replayed packets at", self.named(|robot| reports(robot, Fault::REPLAYED))),
         ];
         let named = problems.iter().filter(|(_, robots)| !robots.is_empty());
-        let mut texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
-        if self.channel.is_bad() {
-            texts.push("the channel loses much".to_owned());
-        }
+        let texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
         match texts.as_slice() {
             [] => (Condition::Ok, "all robots are heard".to_owned()),
             texts => (Condition::Warn, texts.join("; ")),

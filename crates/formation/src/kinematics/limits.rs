@@ -52,6 +52,16 @@ impl Ramp {
         Limited { value, acted: true }
     }
 
+    /// The wheel speeds `duration` (s) after motors that ran at `current` were told `told`: each wheel goes as far as it can,
+    /// whatever that does to the curvature. What a robot does that is told more than it can follow.
+    #[must_use]
+    pub fn reached(self, current: Wheels, told: Wheels, duration: f64) -> Wheels {
+        Wheels {
+            left: self.reachable(current.left, duration).nearest_to(told.left),
+            right: self.reachable(current.right, duration).nearest_to(told.right),
+        }
+    }
+
     /// How far the centre of the robot travels at most until both wheels rest, m, when each brakes as it can, which is what
     /// [`Self::limit`] makes of a wish for rest: (v_L^2 + v_R^2)/(4 a). In a curve that is more than v^2/(2 a) of the centre.
     pub fn stopping_distance(self, current: Wheels) -> f64 {
@@ -111,6 +121,14 @@ mod tests {
         assert!((limited.value.left - expected.0).abs() < 1e-12, "{limited:?}");
         assert!((limited.value.right - expected.1).abs() < 1e-12, "{limited:?}");
         assert_eq!(limited.acted, acted);
+    }
+
+    #[test]
+    fn each_wheel_goes_as_far_as_it_can() {
+        let (current, told) = (Wheels { left: 0.2, right: 0.1 }, Wheels { left: -0.15, right: 0.15 });
+        let reached = STEPPER.reached(current, told, 0.04);
+        assert!((reached.left - 0.18).abs() < 1e-12 && (reached.right - 0.12).abs() < 1e-12, "{reached:?}");
+        assert_eq!(STEPPER.reached(reached, reached, 0.0), reached);
     }
 
     #[test]

@@ -38,10 +38,10 @@ pub const GREEN: [[bool; 4]; 16] = {
         dots(0b0000),
         dots(0b0011),
         dots(0b1100),
-        dots(0b0111),
-        dots(0b0100),
         dots(0b1011),
         dots(0b1000),
+        dots(0b0111),
+        dots(0b0100),
     ]
 };
 

@@ -253,6 +253,34 @@ fn detections_serve_as_well_as_images() {
     assert_eq!(state.robots[0].status, RobotState::STATUS_PREDICTED);
 }
 
+/// A pad that is nobody's, and then a robot without one: names stay where they were, and the report says how many there are.
+#[test]
+fn more_pads_than_robots_and_fewer_do_not_move_names() {
+    let mut core = build("    input: detections\n").unwrap();
+    let stranger = Pose2 { x: 1.0, y: 0.9, theta: 0.3 };
+    let mut told = |sequence: u64, pads: &[Pose2]| {
+        let outbox = send(core.as_mut(), sequence, &detections_of(pads, sequence, |_| ()));
+        let state: TeamState = outbox.last(0).unwrap();
+        for (robot, pose) in state.robots.iter().zip(START) {
+            assert!((robot.x - pose.x).hypot(robot.y - pose.y) < 1e-3, "frame {sequence}: {robot:?}");
+        }
+        let report = outbox.published::<DiagnosticArray>(2).pop();
+        (state.robots.iter().map(|robot| robot.status).collect::<Vec<_>>(), report)
+    };
+    told(1, &START);
+    for sequence in 2..=30 {
+        let (statuses, _) = told(sequence, &[START[0], stranger, START[1]]);
+        assert_eq!(statuses, [RobotState::STATUS_TRACKED; 2], "frame {sequence}");
+    }
+    // The stranger does not stand in for a robot whose pad is hidden.
+    let (statuses, report) = told(31, &[START[0], stranger]);
+    assert_eq!(statuses, [RobotState::STATUS_TRACKED, RobotState::STATUS_PREDICTED]);
+    let message = &report.unwrap().status[1].message;
+    assert!(message.contains("not seen: robot2"), "{message}");
+    let (statuses, _) = told(32, &START);
+    assert_eq!(statuses, [RobotState::STATUS_TRACKED; 2]);
+}
+
 #[test]
 fn silence_is_an_error_and_the_rate_is_told() {
     let mut core = build("    input: detections\n").unwrap();
