@@ -49,7 +49,7 @@ impl Turn {
     }
 }
 
-/// Has this process, and whatever threads it starts afterwards, wait for its turn; its event loop takes it ([`take_turn`]). A
+/// Has this process, and whatever threads it starts afterwards, wait for its turn; its event loop takes it before it begins. A
 /// system that does not allow it runs as before.
 pub fn wait_turn(turn: Turn) {
     let _first = TURN.set(turn);
