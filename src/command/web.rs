@@ -4,23 +4,26 @@ mod guard;
 
 use super::say;
 use axum::Router;
-use axum::extract::ws::{WebSocket, WebSocketUpgrade};
+use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderMap, StatusCode};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use guard::{Guard, is_own_page, stand};
+use serde::de::DeserializeOwned;
 use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 use tokio::sync::Semaphore;
+use tokio::time::timeout;
 use trench_view::page::File;
 
 /// Browsers at the same time.
 const BROWSERS: usize = 32;
 /// A browser that takes nothing for so long is gone.
-pub(super) const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Where the page is served.
 #[derive(clap::Args)]
@@ -138,4 +141,56 @@ impl Places {
             drop(place);
         })
     }
+}
+
+/// Browsers that have drawn what they got and wait for more.
+#[derive(Default)]
+pub(super) struct Waiters(AtomicUsize);
+
+/// A browser that waits; it does so as long as this lives.
+pub(super) struct Waiting<'a>(&'a Waiters);
+
+impl Waiters {
+    pub(super) fn wait(&self) -> Waiting<'_> {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        Waiting(self)
+    }
+
+    /// Whether any browser waits.
+    pub(super) fn are_there(&self) -> bool {
+        self.0.load(Ordering::Relaxed) > 0
+    }
+}
+
+impl Drop for Waiting<'_> {
+    fn drop(&mut self) {
+        self.0.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// What a browser said.
+pub(super) enum Said<Command> {
+    /// It has drawn and wants more.
+    More,
+    /// It wants something of the page's.
+    Command(Command),
+    /// It has gone, or says what nobody understands.
+    Gone,
+}
+
+/// The next that a browser says.
+pub(super) async fn hear<Command: DeserializeOwned>(socket: &mut WebSocket) -> Said<Command> {
+    loop {
+        return match socket.recv().await {
+            Some(Ok(Message::Text(text))) if text.is_empty() => Said::More,
+            Some(Ok(Message::Text(text))) => serde_json::from_str(&text).map_or(Said::Gone, Said::Command),
+            Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
+            _ => Said::Gone,
+        };
+    }
+}
+
+/// Sends a browser something; false if it has gone.
+pub(super) async fn tell(socket: &mut WebSocket, message: Message) -> bool {
+    matches!(timeout(PATIENCE, socket.send(message)).await, Ok(Ok(())))
 }

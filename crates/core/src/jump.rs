@@ -23,9 +23,16 @@ impl JumpWatch {
         if steady > LOOK || last.ros.0 == 0 || now.ros.0 == 0 {
             return None;
         }
-        let jump = now.ros.0.saturating_sub(last.ros.0).saturating_sub(steady as i64);
-        (jump.abs() > JUMP).then_some(jump)
+        jump_between(last, now)
     }
+}
+
+/// By how many ns the first clock of two looks went on by more than the monotonic one, if that is no drift.
+#[must_use]
+pub fn jump_between(last: Times, now: Times) -> Option<i64> {
+    let steady = i64::try_from(now.steady.0.saturating_sub(last.steady.0)).unwrap_or(i64::MAX);
+    let jump = now.ros.0.saturating_sub(last.ros.0).saturating_sub(steady);
+    (jump.saturating_abs() > JUMP).then_some(jump)
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub use health::{Condition, Health};
 pub use interface::{
     Advertise, ByteStream, Discovered, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe,
 };
-pub use jump::JumpWatch;
+pub use jump::{JumpWatch, jump_between};
 pub use master::{Master, NotMaster};
 pub use name::resolve_name;
 pub use node_core::{NodeContext, NodeCore, StartError};

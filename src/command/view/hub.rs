@@ -1,7 +1,8 @@
 //! Where the node that listens and the server that shows meet.
 
+use crate::command::web::{Waiters, Waiting};
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tokio::sync::watch;
 use trench_view::{Snapshot, View};
@@ -12,19 +13,9 @@ pub(super) struct Hub {
     /// The robots that are listened to.
     robots: Mutex<BTreeSet<String>>,
     newest: watch::Sender<Snapshot>,
-    /// Browsers that have drawn what they got and wait for more.
-    waiting: AtomicUsize,
+    waiting: Waiters,
     /// Whether one of them begins and needs the history.
     newcomer: AtomicBool,
-}
-
-/// A browser that waits; it does so as long as this lives.
-pub(super) struct Waiting<'a>(&'a Hub);
-
-impl Drop for Waiting<'_> {
-    fn drop(&mut self) {
-        self.0.waiting.fetch_sub(1, Ordering::Relaxed);
-    }
 }
 
 impl Hub {
@@ -35,7 +26,7 @@ impl Hub {
             view: Mutex::new(view),
             robots: Mutex::default(),
             newest: watch::Sender::new(Snapshot::default()),
-            waiting: AtomicUsize::new(0),
+            waiting: Waiters::default(),
             newcomer: AtomicBool::new(false),
         }
     }
@@ -53,8 +44,7 @@ impl Hub {
         if needs_history {
             self.newcomer.store(true, Ordering::Relaxed);
         }
-        self.waiting.fetch_add(1, Ordering::Relaxed);
-        Waiting(self)
+        self.waiting.wait()
     }
 
     pub(super) fn listen(&self) -> watch::Receiver<Snapshot> {
@@ -63,7 +53,7 @@ impl Hub {
 
     /// Whether any browser waits.
     pub(super) fn is_watched(&self) -> bool {
-        self.waiting.load(Ordering::Relaxed) > 0
+        self.waiting.are_there()
     }
 
     /// Gives all browsers what there is now.

@@ -4,51 +4,26 @@
 //! whose window is hidden, asks less often and holds up nobody, and nothing is made or sent that nobody looks at.
 
 use super::hub::Hub;
-use crate::command::web::PATIENCE;
+use crate::command::web::{Said, hear, tell};
 use axum::extract::ws::{Message, WebSocket};
 use std::sync::Arc;
 use std::time::Duration;
-use tokio::time::{Instant, sleep_until, timeout};
+use tokio::time::{Instant, sleep_until};
 use trench_view::{Command, Player, Recording, Seen};
 
 /// The shortest time between two pictures of a bag.
 const PERIOD: Duration = Duration::from_millis(33);
 
-/// What the browser said.
-enum Said {
-    /// It has drawn and wants more.
-    More,
-    /// It wants something of the player.
-    Command(Command),
-    /// It has gone, or says what nobody understands.
-    Gone,
-}
-
-async fn hear(socket: &mut WebSocket) -> Said {
-    loop {
-        return match socket.recv().await {
-            Some(Ok(Message::Text(text))) if text.is_empty() => Said::More,
-            Some(Ok(Message::Text(text))) => serde_json::from_str(&text).map_or(Said::Gone, Said::Command),
-            Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
-            _ => Said::Gone,
-        };
-    }
-}
-
-async fn tell(socket: &mut WebSocket, text: String) -> bool {
-    matches!(timeout(PATIENCE, socket.send(Message::Text(text.into()))).await, Ok(Ok(())))
-}
-
 /// What happens now: the newest picture each time the browser asks.
 pub(super) async fn live(mut socket: WebSocket, hub: &Hub) {
     let (mut newest, mut seen) = (hub.listen(), Seen::default());
-    while matches!(hear(&mut socket).await, Said::More) {
+    while matches!(hear::<Command>(&mut socket).await, Said::More) {
         let news = loop {
             let waiting = hub.wait(seen.needs_history());
             // A browser that goes while it waits is not waited for.
             let changed = tokio::select! {
                 changed = newest.changed() => changed.is_ok(),
-                _ = hear(&mut socket) => false,
+                _ = hear::<Command>(&mut socket) => false,
             };
             drop(waiting);
             if !changed {
@@ -59,7 +34,7 @@ pub(super) async fn live(mut socket: WebSocket, hub: &Hub) {
                 break news;
             }
         };
-        if !tell(&mut socket, news).await {
+        if !tell(&mut socket, Message::Text(news.into())).await {
             return;
         }
     }
@@ -100,7 +75,7 @@ pub(super) async fn bag(mut socket: WebSocket, recording: Arc<Recording>, setup:
         }
         let Some(news) = seen.news(&snapshot) else { continue };
         (wants_more, sent) = (false, now);
-        if !tell(&mut socket, news).await {
+        if !tell(&mut socket, Message::Text(news.into())).await {
             return;
         }
     }

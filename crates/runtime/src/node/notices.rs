@@ -4,7 +4,7 @@ use super::Node;
 use crate::clock::wall_now;
 use crate::transport::malformed_packets;
 use std::collections::BTreeMap;
-use trench_core::{Condition, RosTime, Sink, Steady};
+use trench_core::{Condition, RosTime, Sink, Steady, Times, jump_between};
 use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use trench_msgs::std_msgs::Header;
 
@@ -12,8 +12,6 @@ use trench_msgs::std_msgs::Header;
 const LATELY: f64 = 5.0;
 /// Between two words about packets, s.
 const AGAIN: f64 = 1.0;
-/// What the wall clock and the monotonic one differ by from one look to the next is no drift, ns.
-const JUMP: i64 = 1_000_000_000;
 
 /// A condition of a part.
 type Notice = (&'static str, Condition, String);
@@ -21,8 +19,8 @@ type Notice = (&'static str, Condition, String);
 /// What was noticed so far.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Notices {
-    /// How far the wall clock is ahead of the monotonic one, ns.
-    ahead: Option<i64>,
+    /// Wall clock (in the place of ROS time) and monotonic clock at the last look.
+    clocks: Option<Times>,
     malformed: u64,
     told: BTreeMap<&'static str, Steady>,
 }
@@ -31,9 +29,8 @@ impl Notices {
     /// Looks at the wall clock and at how many packets were none; gives what is to be said.
     fn look(&mut self, now: Steady, wall: RosTime, malformed: u64) -> Vec<Notice> {
         let mut news: Vec<Notice> = Vec::new();
-        let ahead = wall.0.saturating_sub(i64::try_from(now.0).unwrap_or(i64::MAX));
-        let jump = ahead.saturating_sub(self.ahead.replace(ahead).unwrap_or(ahead));
-        if jump.saturating_abs() > JUMP {
+        let clocks = Times { ros: wall, steady: now };
+        if let Some(jump) = self.clocks.replace(clocks).and_then(|last| jump_between(last, clocks)) {
             news.push(("wall clock", Condition::Warn, format!("was set by {:+.1} s", jump as f64 * 1e-9)));
         }
         let is_time = self.told.get("network").is_none_or(|told| now.seconds_since(*told) >= AGAIN);

@@ -48,7 +48,8 @@ impl Expectation {
     }
 
     /// Half axes, pixels.
-    fn half(&self) -> [f64; 2] {
+    #[must_use]
+    pub fn half(&self) -> [f64; 2] {
         [0.5 * self.width, 0.5 * self.height]
     }
 

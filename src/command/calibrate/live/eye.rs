@@ -37,7 +37,7 @@ impl Eye {
 
     /// Half axes of a disc, pixels.
     pub(super) fn half(&self) -> [f64; 2] {
-        [0.5 * self.expectation.width, 0.5 * self.expectation.height]
+        self.expectation.half()
     }
 
     pub(super) fn size(&self) -> [usize; 2] {

@@ -2,7 +2,7 @@
 //! everything else that it says is a command.
 
 use super::table::Table;
-use crate::command::web::{PATIENCE, Places};
+use crate::command::web::{Places, Said, hear, tell};
 use axum::Router;
 use axum::extract::State;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
@@ -10,8 +10,6 @@ use axum::http::HeaderMap;
 use axum::response::Response;
 use axum::routing::get;
 use std::sync::Arc;
-use tokio::time::timeout;
-use trench_view::colours::Command;
 use trench_view::page;
 
 /// The page's files.
@@ -41,26 +39,21 @@ async fn stream(mut socket: WebSocket, table: &Table) {
     loop {
         let waiting = wants_more.then(|| table.wait());
         let said = tokio::select! {
-            said = socket.recv() => Some(said),
+            said = hear(&mut socket) => Some(said),
             changed = newest.changed(), if wants_more => if changed.is_ok() { None } else { return },
         };
         drop(waiting);
         match said {
             None => {
                 wants_more = false;
-                let message = newest.borrow_and_update().to_vec();
-                let sent = timeout(PATIENCE, socket.send(Message::Binary(message.into()))).await;
-                if !matches!(sent, Ok(Ok(()))) {
+                let message = newest.borrow_and_update().clone();
+                if !tell(&mut socket, Message::Binary(message)).await {
                     return;
                 }
             }
-            Some(Some(Ok(Message::Text(text)))) if text.is_empty() => wants_more = true,
-            Some(Some(Ok(Message::Text(text)))) => match serde_json::from_str::<Command>(&text) {
-                Ok(command) => table.ask(command),
-                Err(_) => return,
-            },
-            Some(Some(Ok(Message::Ping(_) | Message::Pong(_)))) => {}
-            Some(_) => return,
+            Some(Said::More) => wants_more = true,
+            Some(Said::Command(command)) => table.ask(command),
+            Some(Said::Gone) => return,
         }
     }
 }

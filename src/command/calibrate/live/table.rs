@@ -1,30 +1,21 @@
 //! Where the node that sees and the server that shows meet.
 
 use super::bench::Bench;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use crate::command::web::{Waiters, Waiting};
+use axum::body::Bytes;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tokio::sync::watch;
 use trench_view::colours::Command;
 
-/// What a browser gets at once: see `message.rs`.
-pub(super) type Message = Arc<[u8]>;
+/// What a browser gets at once: see [`Bench::message`].
+pub(super) type Message = Bytes;
 
 /// Between the node's thread and the server's.
 pub(super) struct Table {
     bench: Mutex<Bench>,
     commands: Mutex<Vec<Command>>,
     newest: watch::Sender<Message>,
-    /// Browsers that have drawn what they got and wait for more.
-    waiting: AtomicUsize,
-}
-
-/// A browser that waits; it does so as long as this lives.
-pub(super) struct Waiting<'a>(&'a Table);
-
-impl Drop for Waiting<'_> {
-    fn drop(&mut self) {
-        self.0.waiting.fetch_sub(1, Ordering::Relaxed);
-    }
+    waiting: Waiters,
 }
 
 /// More commands at once are a broken page's.
@@ -33,7 +24,7 @@ const MOST: usize = 64;
 impl Table {
     pub(super) fn new(bench: Bench) -> Self {
         let newest = watch::Sender::new(bench.message());
-        Self { bench: Mutex::new(bench), commands: Mutex::default(), newest, waiting: AtomicUsize::new(0) }
+        Self { bench: Mutex::new(bench), commands: Mutex::default(), newest, waiting: Waiters::default() }
     }
 
     /// The node's thread alone asks for it.
@@ -57,13 +48,12 @@ impl Table {
     }
 
     pub(super) fn wait(&self) -> Waiting<'_> {
-        self.waiting.fetch_add(1, Ordering::Relaxed);
-        Waiting(self)
+        self.waiting.wait()
     }
 
     /// Whether any browser waits.
     pub(super) fn is_watched(&self) -> bool {
-        self.waiting.load(Ordering::Relaxed) > 0
+        self.waiting.are_there()
     }
 
     /// A browser's ear; the first thing it hears is what there is now.
