@@ -78,11 +78,21 @@ impl<const RED: usize> Tracer<'_, RED> {
     }
 
     fn run_in_row(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
-        self.run(u, |u| self.chroma(u, v) >= least)
+        let row = self.frame.row(v);
+        self.run(u, |u| self.has(row.get(3 * u..3 * u + 3), least))
     }
 
     fn run_in_column(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
-        self.run(v, |v| self.chroma(u, v) >= least)
+        self.run(v, |v| self.has(self.frame.row(v).get(3 * u..3 * u + 3), least))
+    }
+
+    /// Whether a pixel is in the image and has at least so much chroma.
+    #[inline]
+    fn has(&self, pixel: Option<&[u8]>, least: i32) -> bool {
+        match pixel {
+            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c], self.weights) >= least,
+            _ => false,
+        }
     }
 
     /// The longest interval around `start` on which `inside` holds; None if longer than a disc.

@@ -1,7 +1,7 @@
 //! The centre of area of a disc to a hundredth of a pixel.
 
 use super::blob::{Extent, Tracer};
-use super::chroma::chroma;
+use super::weigh::{Moments, moments};
 use trench_optics::Pixel;
 
 /// A disc's measured centre and size.
@@ -42,27 +42,18 @@ pub(super) fn measure<const RED: usize>(tracer: &Tracer<'_, RED>, extent: Extent
 
     let first_row = (centre_v - reach_v).max(0.0) as usize;
     let last_row = ((centre_v + reach_v) as usize).min(tracer.frame.height.saturating_sub(1));
-    let (mut sum, mut sum_u, mut sum_v) = (0_i64, 0_i64, 0_i64);
-    for v in first_row..=last_row {
+    // All of them before the first is used: the processor takes several roots at a time, if nothing depends on them yet.
+    let rows = (first_row..last_row + 1).map(|v| {
         let down = (v as f64 - centre_v) / reach_v;
         let half_width = reach_u * (1.0 - down * down).max(0.0).sqrt();
         let first = (centre_u - half_width + 0.5).max(0.0) as usize;
-        let last = ((centre_u + half_width + 0.5) as usize).min(tracer.frame.width);
-        let pixels = tracer.frame.row(v).get(3 * first..3 * last).unwrap_or_default();
-        let (mut row_sum, mut row_moment) = (0_i32, 0_i32);
-        for (column, pixel) in pixels.chunks_exact(3).enumerate() {
-            let chroma = tracer.colour.sign() * chroma::<RED>([pixel[0], pixel[1], pixel[2]], tracer.weights);
-            let weight = chroma.clamp(lowest, highest) - lowest;
-            row_sum += weight;
-            row_moment += weight * column as i32;
-        }
-        sum += i64::from(row_sum);
-        sum_u += i64::from(row_moment) + first as i64 * i64::from(row_sum);
-        sum_v += v as i64 * i64::from(row_sum);
-    }
+        [first, ((centre_u + half_width + 0.5) as usize).min(tracer.frame.width)]
+    });
+    let rows: Vec<[usize; 2]> = rows.collect();
+    let Moments { sum, across, down } = moments(tracer, [lowest, highest], first_row, &rows);
     let total = sum as f64;
     (sum > 0).then(|| Measured {
-        centre: Pixel { u: sum_u as f64 / total, v: sum_v as f64 / total },
+        centre: Pixel { u: across as f64 / total, v: down as f64 / total },
         area: total / f64::from(highest - lowest),
         contrast,
     })

@@ -6,6 +6,7 @@
 //! green differ more: there less is asked for.
 
 use super::balance::{UNIT, Weights};
+use wide::{i16x8, i32x8};
 
 /// What a disc is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -151,9 +152,56 @@ fn weighted(value: u8, weight: i32) -> i32 {
     i32::from(value) * raised
 }
 
+/// [`chroma`] of eight pixels in white light, given their red, green and blue.
+#[inline]
+pub(super) fn white_chroma_of_eight([red, green, blue]: [i16x8; 3]) -> i16x8 {
+    red + green - blue - blue
+}
+
+/// [`chroma`] of eight pixels, given their red, green and blue.
+#[inline]
+pub(super) fn chroma_of_eight([red, green, blue]: [i16x8; 3], weights: Weights) -> i16x8 {
+    let blue = weighted_eight(blue, weights.blue);
+    let scaled = weighted_eight(red, weights.red) + green.widening_mul(i16x8::splat(UNIT as i16)) - blue - blue;
+    // Division rounds towards zero, a shift downwards.
+    let rounded = scaled + ((scaled >> 31) & i32x8::splat(UNIT - 1));
+    i16x8::from_i32x8_truncate(rounded >> UNIT.trailing_zeros())
+}
+
+#[inline]
+fn weighted_eight(value: i16x8, weight: i32) -> i32x8 {
+    let [maybe, cut_off] = [MAYBE_CUT_OFF, CUT_OFF].map(i16::from);
+    let over = (value - i16x8::splat(maybe)).max(i16x8::ZERO).min(i16x8::splat(cut_off - maybe));
+    let raise = i16x8::splat((weight.max(UNIT) - weight) as i16);
+    value.widening_mul(i16x8::splat(weight as i16) + ((raise * over) >> 4))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn eight_pixels_have_the_chroma_of_each() {
+        for weights in [Weights::NEUTRAL, Weights { red: 107, blue: 34 }, Weights { red: 29, blue: 229 }] {
+            for green in 0..=255_u8 {
+                for step in 0..32 {
+                    let [red, blue]: [[u8; 8]; 2] = [97, 31].map(|by| {
+                        std::array::from_fn(|lane| green.wrapping_mul(by).wrapping_add(8 * step + lane as u8))
+                    });
+                    let lanes = |values: [u8; 8]| i16x8::new(values.map(i16::from));
+                    let pixels = [lanes(red), lanes([green; 8]), lanes(blue)];
+                    let eight = chroma_of_eight(pixels, weights).to_array();
+                    if weights == Weights::NEUTRAL {
+                        assert_eq!(white_chroma_of_eight(pixels).to_array(), eight);
+                    }
+                    for lane in 0..8 {
+                        let one = chroma::<0>([red[lane], green, blue[lane]], weights);
+                        assert_eq!(i32::from(eight[lane]), one, "{weights:?} {} {green} {}", red[lane], blue[lane]);
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn knows_the_pads_colours_in_any_light_and_nothing_else() {

@@ -8,6 +8,7 @@ use super::centroid;
 use super::chroma::{Classifier, Colour, ColourLimits};
 use super::faint::{self, Faint};
 use super::frame::{ChannelOrder, Frame};
+use super::looks::{Look, looks};
 use super::rim;
 use nalgebra::Point3;
 use trench_optics::{Camera, Pad, Pixel};
@@ -74,6 +75,9 @@ const FAINT: i32 = 130;
 const NEAR: f64 = 0.35;
 /// With less scatter than this nothing lies over a disc: a cable adds twice as much.
 const CLEAR: f64 = 0.2;
+
+/// A disc's pixels, and those around it that it is told from, end within so many diameters of a first look at it.
+const AROUND: f64 = 1.3;
 
 /// Above this confidence a disc is seen whole.
 const CERTAIN: f64 = 0.8;
@@ -168,20 +172,15 @@ impl Detector {
     }
 
     fn scan<const RED: usize>(&self, frame: Frame<'_>, weights: Weights, found: &mut Vec<Found>) {
-        for v in (self.stride / 2..frame.height).step_by(self.stride) {
-            for (index, look) in frame.row(v).chunks_exact(3 * self.stride).enumerate() {
-                let Some(colour) = self.classifier.classify::<RED>([look[0], look[1], look[2]], weights) else {
-                    continue;
-                };
-                let u = index * self.stride;
-                if !self.is_known(found, colour, u, v)
-                    && let Some(one) = self.disc_around::<RED>(frame, colour, weights, [u, v])
-                    && !self.is_known(found, colour, one.disc.centre.u as usize, one.disc.centre.v as usize)
-                {
-                    found.push(one);
-                    if found.len() == MOST_DISCS {
-                        return;
-                    }
+        let reach = [self.expectation.width, self.expectation.height].map(|size| (AROUND * size) as usize);
+        for Look { colour, u, v } in looks::<RED>(self.classifier, frame, weights, self.stride, reach) {
+            if !self.is_known(found, colour, u, v)
+                && let Some(one) = self.disc_around::<RED>(frame, colour, weights, [u, v])
+                && !self.is_known(found, colour, one.disc.centre.u as usize, one.disc.centre.v as usize)
+            {
+                found.push(one);
+                if found.len() == MOST_DISCS {
+                    return;
                 }
             }
         }

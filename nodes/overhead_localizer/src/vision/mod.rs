@@ -11,10 +11,12 @@ pub mod coded;
 mod detector;
 mod faint;
 mod frame;
+mod looks;
 mod packed;
 mod pad_fit;
 mod partner;
 mod rim;
+mod weigh;
 mod yuyv;
 
 pub use balance::Light;

@@ -1,0 +1,67 @@
+//! Looks at a grid of pixels, too dense for a disc to fall through.
+
+use super::balance::Weights;
+use super::chroma::{Classifier, Colour};
+use super::frame::Frame;
+use std::ops::Range;
+
+/// A pixel of the grid that has a colour.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Look {
+    pub(super) colour: Colour,
+    pub(super) u: usize,
+    pub(super) v: usize,
+}
+
+/// The coloured pixels of a grid, row by row; `stride` pixels from one to the next; the pixels
+/// that a disc is measured by are at most `reach` columns and rows from the first look at it.
+///
+/// Rows of pixels lie kilobytes apart in memory, and one that is read for the first time is waited for: so the next row of looks,
+/// and what lies around the first look at something coloured, are called for ahead, and come while others are looked at.
+pub(super) fn looks<const RED: usize>(
+    classifier: Classifier,
+    frame: Frame<'_>,
+    weights: Weights,
+    stride: usize,
+    reach: [usize; 2],
+) -> Vec<Look> {
+    let mut looks: Vec<Look> = Vec::with_capacity(256);
+    let mut row_before = 0;
+    for v in (stride / 2..frame.height).step_by(stride) {
+        let this_row = looks.len();
+        call_for(frame, 0..frame.width, v + stride..v + stride + 1);
+        for (index, look) in frame.row(v).chunks_exact(3 * stride).enumerate() {
+            if let Some(colour) = classifier.classify::<RED>([look[0], look[1], look[2]], weights) {
+                let u = index * stride;
+                if !looks[row_before..].iter().rev().any(|other| other.u.abs_diff(u) <= stride) {
+                    let columns = u.saturating_sub(reach[0])..u + reach[0];
+                    call_for(frame, columns, v.saturating_sub(stride)..v + reach[1]);
+                }
+                looks.push(Look { colour, u, v });
+            }
+        }
+        row_before = this_row;
+    }
+    looks
+}
+
+/// Lets the pixels of a box come nearer to the processor, without waiting for them.
+pub(super) fn call_for(frame: Frame<'_>, columns: Range<usize>, rows: Range<usize>) {
+    /// Bytes that memory gives at once.
+    const LINE: usize = 64;
+    for v in rows {
+        let row = frame.row(v);
+        let pixels = row.get(3 * columns.start..(3 * columns.end + LINE).min(row.len())).unwrap_or_default();
+        pixels.iter().step_by(LINE).for_each(prefetch);
+    }
+}
+
+/// Into the second cache: the first is smaller than what is called for.
+#[cfg(target_arch = "x86_64")]
+fn prefetch(byte: &u8) {
+    safe_arch::prefetch_t1(byte);
+}
+
+/// Elsewhere pixels come when they are read.
+#[cfg(not(target_arch = "x86_64"))]
+fn prefetch(_: &u8) {}
