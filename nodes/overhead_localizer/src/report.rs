@@ -8,6 +8,8 @@ use trench_core::{Condition, Health, Level, Sink, Steady, Times};
 
 /// Without frames for so long, s, something is wrong with the camera.
 const SILENCE: f64 = 0.5;
+/// One frame of so many may be missed: more, and something must be set right.
+const MOST_MISSED: u64 = 100;
 /// How often conditions are looked at, s.
 pub(crate) const PERIOD: f64 = 0.25;
 
@@ -22,8 +24,11 @@ pub(crate) struct Report {
     /// Frames that were not understood, by reason.
     rejected: BTreeMap<String, u64>,
     last_frame: Option<Steady>,
-    window: Option<(Steady, u64)>,
+    /// Its beginning, and what the stream had counted by then.
+    window: Option<(Steady, Stream)>,
     rate: f64,
+    /// Missed of the last window, of so many.
+    missed: [u64; 2],
     rejected_at_window: u64,
 }
 
@@ -39,6 +44,7 @@ impl Report {
             last_frame: None,
             window: None,
             rate: 0.0,
+            missed: [0, 0],
             rejected_at_window: 0,
         }
     }
@@ -95,6 +101,7 @@ impl Report {
         let (condition, message) = match self.rejected.iter().max_by_key(|(_, count)| **count) {
             Some((reason, _)) if rejected > self.rejected_at_window => (Condition::Error, format!("dropped: {reason}")),
             _ if silent => (Condition::Error, "no frames".to_owned()),
+            _ if self.missed[0] * MOST_MISSED > self.missed[1] => (Condition::Warn, too_many_missed(self.missed)),
             _ => (Condition::Ok, "frames arrive".to_owned()),
         };
         self.health.set("camera", condition, message);
@@ -122,16 +129,27 @@ impl Report {
     }
 
     fn measure_rate(&mut self, at: Times, stream: &Stream) {
-        match self.window {
-            None => self.window = Some((at.steady, stream.frames)),
-            Some((start, frames)) => {
-                let elapsed = at.steady.seconds_since(start);
+        match &self.window {
+            None => self.window = Some((at.steady, stream.clone())),
+            Some((start, before)) => {
+                let elapsed = at.steady.seconds_since(*start);
                 if elapsed >= 1.0 {
-                    self.rate = stream.frames.saturating_sub(frames) as f64 / elapsed;
-                    self.window = Some((at.steady, stream.frames));
+                    let taken = stream.frames.saturating_sub(before.frames);
+                    let missed = stream.missed.saturating_sub(before.missed);
+                    self.rate = taken as f64 / elapsed;
+                    self.missed = [missed, missed + taken];
+                    self.window = Some((at.steady, stream.clone()));
                     self.rejected_at_window = self.rejected.values().sum();
                 }
             }
         }
     }
+}
+
+/// What to do about it: a frame is larger than what Linux lets a socket hold unless told otherwise, 208 KiB.
+fn too_many_missed([missed, all]: [u64; 2]) -> String {
+    format!(
+        "{missed} of {all} frames missed: a camera over the network needs sockets that hold a frame \
+         (sysctl -w net.core.rmem_max=4194304, here and there) or CompressedImage; one of this host, a faster host"
+    )
 }

@@ -296,6 +296,23 @@ fn silence_is_an_error_and_the_rate_is_told() {
 }
 
 #[test]
+fn more_than_one_frame_missed_of_a_hundred_is_a_warning_that_tells_the_remedy() {
+    let mut core = build("    input: detections\n").unwrap();
+    wake(core.as_mut(), 0);
+    let mut send_all = |sequences: &mut dyn Iterator<Item = u64>, until: u64| {
+        sequences.for_each(|sequence| drop(send(core.as_mut(), sequence, &detections(sequence, |_| ()))));
+        let status = wake(core.as_mut(), until).status.swap_remove(0);
+        (status.level, status.message)
+    };
+    let ok = (0, "frames arrive".to_owned());
+    assert_eq!(send_all(&mut (1..=26), 1_040_000_001), ok);
+    let (level, message) = send_all(&mut (27..=52).step_by(3), 2_080_000_002);
+    assert_eq!(level, 1);
+    assert!(message.starts_with("16 of 25 frames missed: a camera over the network needs sockets"), "{message}");
+    assert_eq!(send_all(&mut (52..=78), 3_120_000_003), ok);
+}
+
+#[test]
 fn a_frozen_camera_drives_nobody_however_fresh_its_stamps() {
     let description = description();
     let text = PARAMETERS.replace("frozen_frames: 0", "input: detections");
