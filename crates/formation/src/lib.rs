@@ -16,6 +16,7 @@ pub mod compared;
 pub mod curve;
 pub mod hull;
 pub mod kinematics;
+mod lanes;
 pub mod laws;
 mod quadrature;
 pub mod safety;

@@ -62,6 +62,7 @@ proptest! {
         let goal = GoalMotion { position: at(1.0, 0.0), velocity: drift, acceleration: at(0.2, 0.1) };
         let motion = RigidMotion { origin: GoalMotion { position: at(0.0, 0.0), ..goal }, ..RigidMotion::at_rest() };
         let around = Surroundings {
+            clear: 0.0,
             time: 0.0,
             curve: &curve,
             map_from_segment: Isometry2::identity(),

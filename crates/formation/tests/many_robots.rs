@@ -49,3 +49,26 @@ fn one_thread_or_several() {
     assert_eq!(alone, run(5));
     assert!(alone.iter().all(|robot| robot.position.y.abs() < 3.0), "they are on their way to the segment");
 }
+
+/// A winding segment, robots of which most have nothing but their leader near: these are steered several at once.
+fn winding(open_end: bool) -> ChainScenario<Hyperbolic> {
+    let (origin, amplitude, wavelength) = (Vector2::zeros(), 9.0, 120.0);
+    let shape = CurveShape::Sinusoid { origin, direction: 0.3, length: 1600.0, amplitude, wavelength, phase: 1.0 };
+    let segment = Curve::new(&shape, false, open_end).unwrap();
+    let place = |rank: u32| {
+        let foot = segment.at(1400.0 - 4.5 * f64::from(rank));
+        foot.point + (f64::from(rank * 7 % 11) - 5.0) * Vector2::new(-foot.tangent.y, foot.tangent.x)
+    };
+    let robots = (0..301).map(|rank| PointState::at_rest(place(rank))).collect();
+    ChainScenario { robots, team_goal: Some(place(0)), segment, steps_per_tick: 1, ..many() }
+}
+
+/// An open end changes nothing for robots that are far from it, but that their nearest points are sought one by one; and on other numbers
+/// of threads others stand side by side.
+#[test]
+fn alone_or_side_by_side() {
+    let run = |open_end, threads| end(ChainSimulation::new(winding(open_end)).unwrap().with(Threads(threads)));
+    let side_by_side = run(false, 1);
+    assert_eq!(side_by_side, run(true, 1));
+    assert_eq!(side_by_side, run(false, 2));
+}

@@ -167,7 +167,7 @@ impl Simulation {
             }
             Running::Nearest(chain, trips) => {
                 for (index, robot) in chain.robots().iter().enumerate() {
-                    let action = chain.actions().get(index);
+                    let action = chain.outcomes().get(index);
                     let goal = action.and_then(|action| action.attraction);
                     let deviation = chain.deviations().get(index).copied().unwrap_or(f64::INFINITY);
                     samples.push(of_point(*robot, action.map(|action| action.steered), goal, deviation));

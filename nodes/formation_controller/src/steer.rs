@@ -60,6 +60,7 @@ impl Tick {
         }
         let zoned = settings.law.is_zoned();
         let around = Surroundings {
+            clear: 0.0,
             // A clock that never runs back: what the controller remembers has times.
             time: at.steady.0 as f64 * 1e-9,
             curve: segments.curve(member.queue).ok_or(Hold::NoPlace)?,

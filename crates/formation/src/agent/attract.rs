@@ -1,9 +1,10 @@
 //! What draws a robot: its goal or nearest point, unless a remedy asks for something else.
 use super::remedy::{Asked, Drawn, Sight};
 use super::surroundings::Moment;
-use super::{Agent, Surroundings};
+use super::{Agent, Leader, Surroundings};
 use crate::Vector2;
 use crate::curve::Foot;
+use crate::kinematics::PointState;
 use crate::laws::{Attracting, GoalMotion};
 use crate::seek::{LeaderView, Sought};
 use crate::trench::Trench;
@@ -22,17 +23,18 @@ pub(super) struct Attracted {
 }
 
 impl<T: Trench> Agent<T> {
+    #[inline(always)]
     pub(super) fn attract(
         &mut self,
         around: &Surroundings<'_>,
         moment: &Moment<'_>,
-        robot: Vector2<f64>,
+        (robot, leader): (Vector2<f64>, Option<PointState>),
         step: f64,
     ) -> Attracted {
         let goal = around.goal_after(moment.since);
         let (drawn, foot) = match goal {
             Some(goal) => (Drawn::Goal(goal.position), goal),
-            None => match self.seek(around, moment, robot) {
+            None => match self.seek(around, moment, (robot, leader)) {
                 Sought::Point(foot) => (Drawn::To(foot), moment.motion.at(foot.point)),
                 Sought::Tie | Sought::NoFragment => {
                     let attracting = Attracting { foot: moment.motion.at(robot), draws: false };
@@ -45,7 +47,7 @@ impl<T: Trench> Agent<T> {
             Some(remedies) => {
                 let (potential, zoning) = (&self.settings.potential, &self.settings.zoning);
                 let sight = Sight { remedies, potential, zoning, around, moment, step };
-                self.remedy.update(&sight, robot, drawn)
+                self.remedy.get_or_insert_default().update(&sight, robot, drawn)
             }
             None => Asked::Attraction,
         };
@@ -62,12 +64,17 @@ impl<T: Trench> Agent<T> {
         Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation, led }
     }
 
-    fn seek(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: Vector2<f64>) -> Sought {
+    #[inline(always)]
+    fn seek(
+        &mut self,
+        around: &Surroundings<'_>,
+        moment: &Moment<'_>,
+        (robot, leader): (Vector2<f64>, Option<PointState>),
+    ) -> Sought {
         let place = self.leaders_place(around);
-        let leader = around.leader.map(|leader| {
-            let state = leader.state.coasted(moment.since);
-            let speed = (state.velocity - moment.motion.at(state.position).velocity).norm();
-            let view = LeaderView { position: place.unwrap_or(state.position), distance: leader.deviation, speed };
+        let leader = around.leader.zip(leader).map(|(Leader { deviation, .. }, state)| {
+            let speed = (state.velocity - moment.motion.velocity_at(state.position)).norm();
+            let view = LeaderView { position: place.unwrap_or(state.position), distance: deviation, speed };
             (view, self.settings.zoning.radii())
         });
         let whole = (0.0, around.curve.length());

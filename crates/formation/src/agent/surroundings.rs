@@ -1,7 +1,7 @@
 //! What a robot knows at a tick, and how it goes on until the next.
 use crate::Vector2;
 use crate::curve::{Curve, Placed};
-use crate::hull::{ApparentObstacle, Obstacle};
+use crate::hull::{ApparentObstacle, Approach, Obstacle};
 use crate::kinematics::PointState;
 use crate::laws::{GoalMotion, RigidMotion};
 use nalgebra::Isometry2;
@@ -35,6 +35,8 @@ pub struct Surroundings<'a> {
     pub apparent: &'a [ApparentObstacle],
     /// Velocities of the apparent obstacles in order, m/s; those missing rest.
     pub velocities: &'a [Vector2<f64>],
+    /// No apparent obstacle is nearer to the robot than this until the next tick, m; 0 where that is not known.
+    pub clear: f64,
 }
 
 /// What a robot knows of its leader.
@@ -47,7 +49,7 @@ pub struct Leader {
 }
 
 /// The segment some time after a tick.
-pub(super) struct Moment<'a> {
+pub(crate) struct Moment<'a> {
     /// Time since the tick, s.
     pub(super) since: f64,
     pub(super) segment: Placed<'a>,
@@ -56,19 +58,28 @@ pub(super) struct Moment<'a> {
 
 impl<'a> Surroundings<'a> {
     /// The segment `since` seconds after the tick.
-    pub(super) fn moment(&self, since: f64) -> Moment<'a> {
+    #[inline]
+    pub(crate) fn moment(&self, since: f64) -> Moment<'a> {
         let (map_from_segment, motion) = self.motion.carried(self.map_from_segment, since);
         Moment { since, segment: Placed::new(self.curve, map_from_segment), motion }
     }
 
     /// The goal point then.
+    #[inline]
     pub(super) fn goal_after(&self, since: f64) -> Option<GoalMotion> {
         self.goal.map(|goal| goal.after(since))
     }
 
     /// Displacement of an apparent obstacle since the tick, m.
+    #[inline]
     pub(super) fn displacement(&self, index: usize, since: f64) -> Vector2<f64> {
         since * self.velocity(index)
+    }
+
+    /// How an apparent obstacle lies to a robot then.
+    #[inline]
+    pub(super) fn approach(&self, index: usize, since: f64, robot: Vector2<f64>) -> Approach {
+        self.apparent[index].shape.outline().approach(robot - self.displacement(index, since))
     }
 
     /// Whether two real obstacles are kept apart though their hulls are nearer than the clearance: pieces of one long wall (9.2).
@@ -79,6 +90,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Velocity of an apparent obstacle, m/s.
+    #[inline]
     pub(super) fn velocity(&self, index: usize) -> Vector2<f64> {
         self.velocities.get(index).copied().unwrap_or_else(Vector2::zeros)
     }

@@ -12,6 +12,9 @@ use super::{
 use core::f64::consts::TAU;
 use nalgebra::Vector2;
 
+/// Joints where the tangent turns by less than this (rad) are smooth: rounding turns it so far.
+const SMOOTH: f64 = 1e-9;
+
 /// A primitive and its parameter interval.
 pub(super) type Span = (Primitive, (f64, f64));
 
@@ -33,9 +36,34 @@ impl Curve {
         }
         let tree = BoxTree::new(&pieces);
         let stamp = stamp(&pieces);
-        let curve = Self { primitives, pieces, tree, stamp, length, closed, open_start, open_end };
+        let mut curve = Self { primitives, pieces, tree, stamp, length, closed, open_start, open_end };
         simple::check(&curve)?;
+        for index in 0..curve.pieces.len() {
+            let shielded = curve.shielded(index);
+            if let Some(bend) = &mut curve.pieces[index].bend {
+                bend.learn(shielded);
+            }
+        }
         Ok(curve)
+    }
+
+    /// How far from the middle of a piece points may be, m, for the pieces beside it to be no nearer than the joints, if its own slopes
+    /// say that these are farther than something in between; 0 at corners.
+    fn shielded(&self, index: usize) -> f64 {
+        let piece = &self.pieces[index];
+        let Some(bend) = &piece.bend else { return 0.0 };
+        let [before, after] = self.beside(index);
+        let side = |other: Option<usize>, end: bool| {
+            let Some(other) = other else { return f64::INFINITY };
+            let (joint, corner) = if end { (index + 1, piece.end) } else { (index, piece.start) };
+            let (one, next) = self.tangents_around(joint);
+            if one.perp(&next).abs() > SMOOTH || one.dot(&next) < 0.0 {
+                return 0.0;
+            }
+            let other = &self.pieces[other];
+            other.shields(&self.primitives[other.primitive], !end) - (bend.middle.jet.point - corner).norm()
+        };
+        side(before, false).min(side(after, true))
     }
 }
 

@@ -15,9 +15,6 @@ const MOST_SPLITS: u32 = 20;
 /// A Newton step shorter than this part of an interval on which g' has a sign is the last: what is left then is below its square.
 const LAST_STEP: f64 = 1e-8;
 
-/// A step of third order shorter than this part of the interval leaves less than rounding does.
-const SHORT: f64 = 1e-5;
-
 /// A minimum strictly inside a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Minimum {
@@ -56,11 +53,14 @@ pub(super) fn interior_minima(
             return;
         }
         match bend.middle.slope_sign(point) {
-            Some(true) if changes_sign(&bend.ends[0], &bend.ends[1], point) => {
-                let (parameter, jet) = on_bend(primitive, piece, bend, point);
-                found(Minimum::At { parameter, distance: (jet.point - point).norm(), width: 0.0, jet });
+            Some(true) => {
+                let slopes = bend.slopes(point);
+                if slopes[0] < 0.0 && slopes[1] > 0.0 {
+                    let (parameter, jet) = on_bend(primitive, piece, bend, point, slopes);
+                    found(Minimum::At { parameter, distance: (jet.point - point).norm(), width: 0.0, jet });
+                }
             }
-            Some(_) => {}
+            Some(false) => {}
             None => by_halves(primitive, (piece.from, piece.to), point, reach, found),
         }
     } else {
@@ -78,6 +78,7 @@ pub(super) enum Least {
 }
 
 /// The minimum of a piece on which g grows everywhere; nothing if it may not.
+#[inline]
 pub(super) fn only_minimum(primitive: &Primitive, piece: &Piece, point: Vector2<f64>) -> Option<Least> {
     if let Primitive::Line { start, direction } = primitive {
         let parameter = (point - start).dot(direction);
@@ -90,57 +91,24 @@ pub(super) fn only_minimum(primitive: &Primitive, piece: &Piece, point: Vector2<
         });
     }
     let bend = piece.bend.as_ref().filter(|bend| bend.middle.slope_sign(point) == Some(true))?;
-    let [start, end] = &bend.ends;
-    Some(if (start.point - point).dot(&start.first) >= 0.0 {
+    let slopes = bend.slopes(point);
+    Some(if slopes[0] >= 0.0 {
         Least::Start
-    } else if (end.point - point).dot(&end.first) <= 0.0 {
+    } else if slopes[1] <= 0.0 {
         Least::End
     } else {
-        let (parameter, jet) = on_bend(primitive, piece, bend, point);
+        let (parameter, jet) = on_bend(primitive, piece, bend, point, slopes);
         Least::Inside(parameter, jet)
     })
 }
 
-/// The minimum of a piece on which g grows and changes sign.
-fn on_bend(primitive: &Primitive, piece: &Piece, bend: &Bend, point: Vector2<f64>) -> (f64, Jet) {
-    let (bracket, guess) = bend.guess(piece.from, piece.to, point);
-    let width = piece.to - piece.from;
-    by_short_steps(primitive, bracket, guess, SHORT * width, point).unwrap_or_else(|| {
-        let parameter = solve(primitive, bracket, guess, point, LAST_STEP * width);
+/// The minimum of a piece on which g grows and changes sign, from `slopes` at its ends.
+#[inline]
+fn on_bend(primitive: &Primitive, piece: &Piece, bend: &Bend, point: Vector2<f64>, slopes: [f64; 2]) -> (f64, Jet) {
+    bend.root(point, slopes).unwrap_or_else(|(bracket, guess)| {
+        let parameter = solve(primitive, bracket, guess, point, LAST_STEP * (piece.to - piece.from));
         (parameter, primitive.evaluate(parameter))
     })
-}
-
-/// The zero of g near the parameter `guess` by Halley's method. What the primitive is at the end of a step shorter than `short`
-/// follows by Taylor's series, so that most often it is evaluated but once.
-fn by_short_steps(
-    primitive: &Primitive,
-    (low, high): (f64, f64),
-    guess: f64,
-    short: f64,
-    point: Vector2<f64>,
-) -> Option<(f64, Jet)> {
-    let mut from = guess;
-    for _ in 0..3 {
-        let jet = primitive.evaluate(from);
-        let third = primitive.third(&jet)?;
-        let away = jet.point - point;
-        let (value, slope) = (away.dot(&jet.first), jet.first.norm_squared() + away.dot(&jet.second));
-        let growth = 3.0 * jet.first.dot(&jet.second) + away.dot(&third);
-        let step = -2.0 * value * slope / (2.0 * slope * slope - value * growth);
-        let parameter = from + step;
-        if !(low <= parameter && parameter <= high) {
-            return None;
-        }
-        if step.abs() < short {
-            let second = jet.second + step * third;
-            let first = jet.first + step * (jet.second + 0.5 * step * third);
-            let moved = jet.point + step * (jet.first + 0.5 * step * (jet.second + step / 3.0 * third));
-            return Some((parameter, Jet { point: moved, first, second }));
-        }
-        from = parameter;
-    }
-    None
 }
 
 /// [`interior_minima`] of a primitive between two parameters.

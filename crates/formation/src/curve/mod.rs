@@ -1,6 +1,7 @@
 //! Curves of segments (2.1, 7.2): arc length, tangent, curvature, certified nearest points.
 //!
 //! A [`Curve`] lives in the formation's frame; [`Placed`] looks at it from the frame in which the formation moves.
+mod abreast;
 mod arc_table;
 mod bend;
 mod box_tree;
@@ -11,6 +12,7 @@ mod error;
 mod graph;
 mod minimum;
 mod nearest;
+mod path;
 mod piece;
 mod placed;
 mod primitive;
@@ -21,6 +23,7 @@ mod spline;
 mod warm;
 mod within;
 
+pub(crate) use abreast::Feet;
 pub(crate) use encroachment::united;
 pub use encroachment::{Interval, encroached, qualified_fragments};
 pub use error::CurveError;
@@ -115,9 +118,13 @@ impl Curve {
         (index, parameter)
     }
 
+    #[inline]
     fn arc_length_at(&self, index: usize, parameter: f64) -> f64 {
         let piece = &self.pieces[index];
-        if parameter == piece.to {
+        // Exactly there.
+        if parameter == piece.from {
+            return piece.offset;
+        } else if parameter == piece.to {
             return piece.offset + piece.length;
         }
         piece.offset + piece.length_to(&self.primitives[piece.primitive], parameter)

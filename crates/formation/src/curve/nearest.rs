@@ -62,18 +62,34 @@ impl Curve {
         best
     }
 
+    /// The best of a piece and those beside it, where that is quickly seen to be inside it.
+    #[inline]
+    pub(super) fn rest(&self, point: Vector2<f64>, index: usize) -> Option<Best> {
+        let (parameter, jet) = self.pieces[index].bend.as_ref()?.rest(point)?;
+        Some(Best { distance: (jet.point - point).norm(), piece: index, parameter, jet: Some(jet) })
+    }
+
     pub(super) fn none_yet(&self) -> Best {
         Best { distance: f64::INFINITY, piece: 0, parameter: self.pieces[0].from, jet: None }
     }
 
     /// Takes what a piece has that is nearer than `best`; the distance from then on.
+    #[inline]
     pub(super) fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Best) -> f64 {
         let piece = &self.pieces[index];
-        let primitive = &self.primitives[piece.primitive];
         let far = best.distance + piece.sagitta;
         if piece.chord_distance_squared(point) > far * far * (1.0 + CHORD) + CHORD * self.length {
             return best.distance;
         }
+        self.look_at(point, index, best);
+        best.distance
+    }
+
+    /// [`Self::improve`] for a piece that is likely to be nearer.
+    #[inline(never)]
+    pub(super) fn look_at(&self, point: Vector2<f64>, index: usize, best: &mut Best) {
+        let piece = &self.pieces[index];
+        let primitive = &self.primitives[piece.primitive];
         let mut offer = |distance: f64, parameter: f64, jet: Option<Jet>| {
             if (distance, index, parameter) < (best.distance, best.piece, best.parameter) {
                 *best = Best { distance, piece: index, parameter, jet };
@@ -82,9 +98,15 @@ impl Curve {
         };
         // On most pieces the distance has one minimum, and the ends tell where.
         match only_minimum(primitive, piece, point) {
-            Some(Least::Start) => offer((piece.start - point).norm(), piece.from, None),
-            Some(Least::End) => offer((piece.end - point).norm(), piece.to, None),
-            Some(Least::Inside(parameter, jet)) => offer((jet.point - point).norm(), parameter, Some(jet)),
+            Some(Least::Start) => {
+                offer((piece.start - point).norm(), piece.from, None);
+            }
+            Some(Least::End) => {
+                offer((piece.end - point).norm(), piece.to, None);
+            }
+            Some(Least::Inside(parameter, jet)) => {
+                offer((jet.point - point).norm(), parameter, Some(jet));
+            }
             None => {
                 offer((piece.start - point).norm(), piece.from, None);
                 let reach = offer((piece.end - point).norm(), piece.to, None);
@@ -92,18 +114,21 @@ impl Curve {
                     Minimum::At { parameter, distance, jet, .. } => offer(distance, parameter, Some(jet)),
                     Minimum::Everywhere { distance } => offer(distance, piece.from, None),
                 });
-                best.distance
             }
         }
     }
 
     /// The foot, on an extension if that is nearer.
+    #[inline]
     pub(super) fn beyond_ends(&self, point: Vector2<f64>, best: Best) -> Foot {
+        if let (Some(jet), false) = (&best.jet, self.open_start || self.open_end) {
+            return self.foot_at(best.piece, best.parameter, jet, best.distance);
+        }
         let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.distance);
         let extension = nearer.min_by(|a, b| a.0.total_cmp(&b.0));
         match (extension, best.jet) {
             (Some((_, place)), _) => self.foot(place, point),
-            (None, Some(jet)) => self.foot_at(best.piece, best.parameter, &jet, point),
+            (None, Some(jet)) => self.foot_at(best.piece, best.parameter, &jet, best.distance),
             (None, None) => self.foot(Place::On(best.piece, best.parameter), point),
         }
     }
@@ -223,7 +248,7 @@ impl Curve {
         let (arc_length, on_curve, tangent) = match place {
             Place::On(index, parameter) => {
                 let jet = self.primitives[self.pieces[index].primitive].evaluate(parameter);
-                return self.foot_at(index, parameter, &jet, point);
+                return self.foot_at(index, parameter, &jet, (jet.point - point).norm());
             }
             Place::Before(beyond) => {
                 let (start, tangent) = self.at_end(false);
@@ -238,14 +263,15 @@ impl Curve {
     }
 
     /// The foot at a parameter of a piece, where its primitive is as `jet` says.
-    fn foot_at(&self, index: usize, parameter: f64, jet: &Jet, point: Vector2<f64>) -> Foot {
+    #[inline]
+    fn foot_at(&self, index: usize, parameter: f64, jet: &Jet, distance: f64) -> Foot {
         let speed = jet.first.norm();
         Foot {
             arc_length: self.arc_length_at(index, parameter),
             point: jet.point,
             tangent: jet.first / speed,
             curvature: jet.first.perp(&jet.second) / (speed * speed * speed),
-            distance: (jet.point - point).norm(),
+            distance,
         }
     }
 

@@ -27,12 +27,26 @@ pub(super) struct Piece {
 
 impl Piece {
     /// Arc length from its start to a parameter, m.
+    #[inline]
     pub(super) fn length_to(&self, primitive: &Primitive, parameter: f64) -> f64 {
-        let known = self.bend.as_ref().and_then(|bend| bend.arc.length_to(parameter, (self.from, self.to)));
+        let known = self.bend.as_ref().and_then(|bend| bend.length_to(parameter));
         known.unwrap_or_else(|| arc_length(primitive, self.from, parameter))
     }
 
+    /// How far from its start (or `end`) points may be, m, for nothing of the piece to be nearer to them than that joint, if they lie
+    /// before (or after) it: if (J - q).T >= 0 with J the joint and T the tangent there into the piece. With S the bound of |p''|,
+    /// p(u) - J goes at least m u along T and at most S u^2 / 2 across it, m = |p'(J)| - S w / 2 over the width w. So
+    /// |p(u) - q|^2 >= |J - q|^2 + m^2 u^2 - |q - J| S u^2.
+    pub(super) fn shields(&self, primitive: &Primitive, end: bool) -> f64 {
+        let width = self.to - self.from;
+        let (second, _) = primitive.derivative_bounds(0.5 * (self.from + self.to), 0.5 * width);
+        let speed = primitive.evaluate(if end { self.to } else { self.from }).first.norm();
+        let least = (speed - 0.5 * second * width).max(0.0);
+        if second > 0.0 { least * least / second } else { f64::INFINITY }
+    }
+
     /// Squared distance of its chord from `point`, m^2: its sagitta tells how much nearer the piece may be.
+    #[inline]
     pub(super) fn chord_distance_squared(&self, point: Vector2<f64>) -> f64 {
         let (chord, offset) = (self.end - self.start, point - self.start);
         let squared = chord.norm_squared();

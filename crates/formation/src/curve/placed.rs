@@ -1,6 +1,8 @@
 //! A curve seen from the frame in which its formation moves.
-use super::{Curve, Foot, Interval, NearestSet, Warm};
+use super::{Curve, Feet, Foot, Interval, NearestSet, Warm};
+use crate::lanes::{LANES, Vectors};
 use nalgebra::{Isometry2, Vector2};
+use wide::f64x4;
 
 /// A curve and the pose of its frame, for instance the target's: all queries are in frame `map`.
 #[derive(Debug, Clone, Copy)]
@@ -33,6 +35,19 @@ impl<'a> Placed<'a> {
     /// As [`Curve::nearest_again`].
     pub fn nearest_again(&self, point: Vector2<f64>, warm: &mut Warm) -> Foot {
         self.to_map(self.curve.nearest_again(self.to_curve(point), warm))
+    }
+
+    /// As [`Curve::nearest_abreast`].
+    #[inline]
+    pub(crate) fn nearest_abreast(&self, points: Vectors, warm: [&Warm; LANES]) -> Option<Feet> {
+        let (rotation, translation) = (self.map_from_curve.rotation, self.map_from_curve.translation.vector);
+        let turned = |re: f64, im: f64, vectors: Vectors| {
+            let (re, im) = (f64x4::splat(re), f64x4::splat(im));
+            Vectors { x: re * vectors.x - im * vectors.y, y: im * vectors.x + re * vectors.y }
+        };
+        let translation = Vectors::splat(translation);
+        let feet = self.curve.nearest_abreast(turned(rotation.re, -rotation.im, points - translation), warm)?;
+        Some(Feet { point: turned(rotation.re, rotation.im, feet.point) + translation, ..feet })
     }
 
     /// As [`Curve::nearest_within`].

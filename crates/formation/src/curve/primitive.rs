@@ -2,12 +2,29 @@
 use nalgebra::Vector2;
 use trench_expression::Expression;
 
-/// Position and its first two derivatives by the primitive's own parameter.
+/// Position and its first two derivatives by a parameter: the primitive's own, or another of a constant ratio to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Jet {
     pub(super) point: Vector2<f64>,
     pub(super) first: Vector2<f64>,
     pub(super) second: Vector2<f64>,
+}
+
+impl Jet {
+    /// The same by a parameter that is `factor` times as small.
+    pub(super) fn stretched(self, factor: f64) -> Self {
+        Self { first: factor * self.first, second: factor * factor * self.second, ..self }
+    }
+
+    /// A small step on, by Taylor's series.
+    #[inline]
+    pub(super) fn moved(&self, step: f64, third: Vector2<f64>) -> Self {
+        Self {
+            point: self.point + step * (self.first + 0.5 * step * (self.second + step / 3.0 * third)),
+            first: self.first + step * (self.second + 0.5 * step * third),
+            second: self.second + step * third,
+        }
+    }
 }
 
 /// One analytic curve over a parameter interval.
@@ -64,17 +81,6 @@ impl Primitive {
                     second: Vector2::new(0.0, 2.0 * series.0[2]),
                 }
             }
-        }
-    }
-
-    /// The third derivative where the jet is `jet`; none where that would be as much work as another jet.
-    pub(super) fn third(&self, jet: &Jet) -> Option<Vector2<f64>> {
-        match self {
-            Self::Line { .. } => Some(Vector2::zeros()),
-            Self::Ellipse { .. } => Some(-jet.first),
-            Self::Cubic { coefficients: [.., c3] } => Some(6.0 * c3),
-            Self::Sinusoid { along, wave_number, .. } => Some(-wave_number * wave_number * (jet.first - along)),
-            Self::Graph { .. } => None,
         }
     }
 

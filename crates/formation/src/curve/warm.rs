@@ -10,8 +10,8 @@ pub struct Warm {
     /// The piece with the nearest point.
     piece: usize,
     /// From here all pieces are at least `room` (m) away but that one and its neighbours.
-    centre: Vector2<f64>,
-    room: f64,
+    pub(super) centre: Vector2<f64>,
+    pub(super) room: f64,
     /// Whether it has helped, and how many questions no proof is tried for after one that has not.
     helped: bool,
     pause: u8,
@@ -28,15 +28,34 @@ impl Default for Warm {
     }
 }
 
+impl Warm {
+    /// The piece of a curve that a point is near for certain as long as it has moved little.
+    #[inline]
+    pub(super) fn piece_on(&self, curve: &Curve) -> Option<usize> {
+        (self.stamp == curve.stamp && self.room > 0.0).then_some(self.piece)
+    }
+
+    /// It has helped.
+    #[inline]
+    pub(crate) fn thank(&mut self) {
+        self.helped = true;
+    }
+}
+
 impl Curve {
     /// [`Self::nearest`] for a point that was asked about before with the same `warm`: as long as it has moved little, one to three
     /// pieces are looked at, and no other can be as near. The result is the same bit for bit.
     pub fn nearest_again(&self, point: Vector2<f64>, warm: &mut Warm) -> Foot {
         let known = warm.stamp == self.stamp;
         if known && warm.room > 0.0 {
+            let moved = (point - warm.centre).norm();
+            if let Some(best) = self.rest(point, warm.piece).filter(|best| best.distance + moved < warm.room) {
+                warm.helped = true;
+                return self.beyond_ends(point, best);
+            }
             let mut best = self.none_yet();
-            self.improve(point, warm.piece, &mut best);
-            if best.distance + (point - warm.centre).norm() < warm.room {
+            self.look_at(point, warm.piece, &mut best);
+            if best.distance + moved < warm.room {
                 let [before, after] = self.beside(warm.piece);
                 for index in [before, after].into_iter().flatten() {
                     self.improve(point, index, &mut best);
@@ -81,7 +100,7 @@ impl Curve {
     }
 
     /// The pieces before and after a piece.
-    fn beside(&self, index: usize) -> [Option<usize>; 2] {
+    pub(super) fn beside(&self, index: usize) -> [Option<usize>; 2] {
         let last = self.pieces.len() - 1;
         let before = if index > 0 { Some(index - 1) } else { Some(last).filter(|_| self.closed) };
         let after = if index < last { Some(index + 1) } else { Some(0).filter(|_| self.closed) };

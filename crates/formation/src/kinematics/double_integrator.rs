@@ -18,6 +18,7 @@ impl PointState {
 
     /// Carried on by its velocity for `duration` (s): what others expect of it.
     #[must_use]
+    #[inline]
     pub fn coasted(self, duration: f64) -> Self {
         Self { position: self.position + duration * self.velocity, ..self }
     }
@@ -34,6 +35,7 @@ impl PointState {
     /// Semi-implicit Euler: new velocity first, position with it. Keeps the energy of stiff zoning walls bounded, which
     /// the runs with obstacles of chapter 7 need.
     #[must_use]
+    #[inline]
     pub fn advanced_semi_implicit(self, acceleration: Vector2<f64>, duration: f64) -> Self {
         let velocity = self.velocity + duration * acceleration;
         Self { position: self.position + duration * velocity, velocity }

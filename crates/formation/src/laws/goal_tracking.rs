@@ -80,6 +80,7 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
 }
 
 /// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
+#[inline]
 pub(crate) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
     let distance = offset.norm();
     if distance == 0.0 { Vector2::zeros() } else { offset * (trench.slope(distance) / distance) }

@@ -40,6 +40,7 @@ pub struct Attracting {
 
 impl<T: Trench> NearestAttraction<T> {
     /// The acceleration of a robot. (7.4) is this without pushes, and the chain leader's law with its goal point as foot.
+    #[inline]
     pub fn steer(
         &self,
         robot: PointState,
@@ -47,6 +48,22 @@ impl<T: Trench> NearestAttraction<T> {
         leader_velocity: Option<Vector2<f64>>,
         pushes: impl IntoIterator<Item = Push>,
     ) -> Steered {
+        let (mut steered, _) = self.unpushed(robot, attracting, leader_velocity);
+        for push in pushes {
+            steered.acceleration += push.force;
+            steered.lyapunov += push.value;
+        }
+        steered
+    }
+
+    /// [`Self::steer`] without pushes, and Phi' d_hat by itself, which it holds.
+    #[inline]
+    pub(crate) fn unpushed(
+        &self,
+        robot: PointState,
+        attracting: Attracting,
+        leader_velocity: Option<Vector2<f64>>,
+    ) -> (Steered, Vector2<f64>) {
         let foot = attracting.foot;
         let sliding = robot.velocity - foot.velocity;
         let offset = foot.position - robot.position;
@@ -54,15 +71,13 @@ impl<T: Trench> NearestAttraction<T> {
             leader_velocity.map_or_else(Vector2::zeros, |velocity| self.leader_damping * (velocity - robot.velocity));
         let mut acceleration = foot.acceleration - self.damping * sliding + relative;
         let mut lyapunov = 0.5 * sliding.norm_squared();
+        let mut trench = Vector2::zeros();
         if attracting.draws {
-            acceleration += pull(&self.trench, offset);
+            trench = pull(&self.trench, offset);
+            acceleration += trench;
             lyapunov += self.trench.value(offset.norm());
         }
-        for push in pushes {
-            acceleration += push.force;
-            lyapunov += push.value;
-        }
         let lyapunov_rate = relative.dot(&sliding) - self.damping * sliding.norm_squared();
-        Steered { acceleration, lyapunov, lyapunov_rate }
+        (Steered { acceleration, lyapunov, lyapunov_rate }, trench)
     }
 }

@@ -15,12 +15,18 @@ pub struct Push {
 
 impl Push {
     /// Psi of the leader: repulsive in zone 2, attractive from zone 4 on.
+    #[inline(always)]
     pub fn of_leader(zoning: &Zoning, robot: Vector2<f64>, leader: Vector2<f64>) -> Self {
+        let radii = zoning.radii();
         let (towards, distance) = direction(leader - robot);
+        if (radii.rho_hat..=radii.rho).contains(&distance) {
+            return Self { force: Vector2::zeros(), value: 0.0 };
+        }
         Self { force: zoning.force(distance) * towards, value: zoning.value(distance) }
     }
 
     /// Psi_hat of another robot ahead in the chain: repulsive in zone 2.
+    #[inline]
     pub fn of_robot_ahead(zoning: &Zoning, robot: Vector2<f64>, other: Vector2<f64>) -> Self {
         let offset = other - robot;
         let reach = zoning.radii().rho_hat;
@@ -32,6 +38,7 @@ impl Push {
     }
 
     /// Psi_hat^ob of an apparent obstacle, (7.9).
+    #[inline]
     pub fn of_obstacle(potential: &ObstaclePotential, approach: Approach) -> Self {
         Self { force: potential.force(approach.gap) * approach.towards, value: potential.value(approach.gap) }
     }

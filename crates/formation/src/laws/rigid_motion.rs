@@ -38,13 +38,27 @@ impl RigidMotion {
         (Isometry2::from_parts(translation.into(), rotation), Self { origin, turn_rate, ..*self })
     }
 
+    /// Velocity of the point of the frame that is at `point` now, m/s.
+    #[inline]
+    pub fn velocity_at(&self, point: Vector2<f64>) -> Vector2<f64> {
+        if self.turn_rate == 0.0 {
+            return self.origin.velocity;
+        }
+        let arm = point - self.origin.position;
+        self.origin.velocity + self.turn_rate * Vector2::new(-arm.y, arm.x)
+    }
+
     /// Motion of the point of the frame that is at `point` now.
+    #[inline]
     pub fn at(&self, point: Vector2<f64>) -> GoalMotion {
+        if self.turn_rate == 0.0 && self.turn_acceleration == 0.0 {
+            return GoalMotion { position: point, ..self.origin };
+        }
         let arm = point - self.origin.position;
         let across = Vector2::new(-arm.y, arm.x);
         GoalMotion {
             position: point,
-            velocity: self.origin.velocity + self.turn_rate * across,
+            velocity: self.velocity_at(point),
             acceleration: self.origin.acceleration + self.turn_acceleration * across
                 - self.turn_rate * self.turn_rate * arm,
         }

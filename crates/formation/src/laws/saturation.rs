@@ -20,8 +20,10 @@ impl Capability {
     /// acceleration; what would be faster than the speed is damped away. The potential forces stay whole, so that
     /// V' = sigma (damping . v) - (something >= 0) keeps its sign and A.10, A.12 and A.18 hold as they stand, as long as the
     /// potential forces alone fit the acceleration: [`Self::fits`]. Otherwise the attraction gives way next, and walls last.
+    #[inline]
     pub fn saturate(&self, velocity: Vector2<f64>, terms: Terms, step: f64) -> Vector2<f64> {
-        let walls = terms.walls.cap_magnitude(self.acceleration);
+        let fits = terms.walls.norm_squared() <= self.acceleration * self.acceleration;
+        let walls = if fits { terms.walls } else { terms.walls.cap_magnitude(self.acceleration) };
         let potential = self.extended(walls, terms.attraction);
         let wanted = self.extended(potential, terms.damping);
         let next = velocity + step * wanted;
@@ -35,6 +37,7 @@ impl Capability {
     }
 
     /// `base`, which fits, and as much of `more` as fits besides.
+    #[inline]
     fn extended(&self, base: Vector2<f64>, more: Vector2<f64>) -> Vector2<f64> {
         let square = more.norm_squared();
         let whole = base + more;

@@ -112,6 +112,7 @@ fn compensation(force: Vector2<f64>, point_velocity: Vector2<f64>, velocity: Vec
 }
 
 /// Unit vector and length of `offset`; robots exactly in one place have no direction, and part along x.
+#[inline(always)]
 pub(super) fn direction(offset: Vector2<f64>) -> (Vector2<f64>, f64) {
     let distance = offset.norm();
     (if distance == 0.0 { Vector2::new(1.0, 0.0) } else { offset / distance }, distance)

@@ -2,11 +2,13 @@
 use crate::Vector2;
 use crate::curve::{Interval, Placed, encroached, qualified_fragments, united};
 use crate::hull::{ApparentObstacle, HullError, Obstacle, Outline, Shape, combine_unless};
+use std::sync::Arc;
 
 /// The qualified fragments of a segment for one robot, S_fg of 7.5.1: arc length intervals in order and apart.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fragments {
-    intervals: Vec<Interval>,
+    /// Shared: where robots do not encroach, all have the same.
+    intervals: Arc<[Interval]>,
 }
 
 /// Step (1): apparent obstacles among real obstacles and the robots ahead, discs of `body_radius` (m). Combining is judged by
@@ -33,7 +35,7 @@ pub fn apparent_obstacles(
 impl Fragments {
     /// The whole of `within`, encroached by nothing.
     pub fn whole(within: Interval) -> Self {
-        Self { intervals: vec![within] }
+        Self { intervals: Arc::new([within]) }
     }
 
     /// Steps (2) and (3): what is left of `within` (finite) by repulsive zones that reach `clearance` (m) beyond the outlines,
@@ -45,7 +47,7 @@ impl Fragments {
     /// What is left of `within` by the intervals that are taken, in any order, without pieces shorter than `room` (m).
     pub fn beside<'a>(within: Interval, taken: impl IntoIterator<Item = &'a Interval>, room: f64) -> Self {
         let taken = united(taken.into_iter().copied().collect());
-        Self { intervals: qualified_fragments(within, &taken, room) }
+        Self { intervals: qualified_fragments(within, &taken, room).into() }
     }
 
     /// What of the fragments lies in intervals (in order and apart), without pieces shorter than `room` (m); nothing where no piece is left.
@@ -55,7 +57,7 @@ impl Fragments {
             intervals.iter().map(move |interval| (from.max(interval.0), to.min(interval.1)))
         };
         let pieces = self.intervals.iter().flat_map(meet).filter(|(from, to)| to - from >= room && to > from);
-        let intervals: Vec<Interval> = pieces.collect();
+        let intervals: Arc<[Interval]> = pieces.collect();
         (!intervals.is_empty()).then_some(Self { intervals })
     }
 
@@ -63,7 +65,7 @@ impl Fragments {
     /// there, `pitch` (m) from each other: they choose one after the other, and what a robot leaves beside it may be just too short.
     pub fn groups(&self, gap: f64, pitch: f64) -> Vec<(Interval, usize)> {
         let mut groups: Vec<(Interval, usize)> = Vec::new();
-        for &(from, to) in &self.intervals {
+        for &(from, to) in self.intervals.iter() {
             let places = libm::floor((to - from) / (2.0 * pitch)) as usize + 1;
             match groups.last_mut() {
                 Some((span, sum)) if from - span.1 <= gap => {
@@ -77,6 +79,7 @@ impl Fragments {
     }
 
     /// The fragments; none if the whole segment is covered.
+    #[inline]
     pub fn intervals(&self) -> &[Interval] {
         &self.intervals
     }
@@ -87,7 +90,7 @@ mod tests {
     use super::*;
 
     fn fragments(intervals: &[Interval]) -> Fragments {
-        Fragments { intervals: intervals.to_vec() }
+        Fragments { intervals: intervals.into() }
     }
 
     #[test]

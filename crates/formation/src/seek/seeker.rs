@@ -51,9 +51,9 @@ impl Seeker {
         leader: Option<(LeaderView, &Radii)>,
     ) -> Sought {
         let far =
-            leader.is_some_and(|(leader, radii)| radii.zone((leader.position - robot).norm()) >= Zone::Attractive);
+            |(leader, radii): (LeaderView, &Radii)| radii.zone((leader.position - robot).norm()) >= Zone::Attractive;
         let whole = [whole];
-        let free = far && settings.leader_rule == LeaderRule::WholeSegmentWhileFar;
+        let free = settings.leader_rule == LeaderRule::WholeSegmentWhileFar && leader.is_some_and(far);
         let intervals = if free { &whole } else { fragments.intervals() };
         let unrestricted = segment.nearest_again(robot, &mut self.warm);
         let search = Search { segment, robot, margin: settings.transit_margin, kept: self.kept, unrestricted };
@@ -87,6 +87,26 @@ impl Seeker {
         }
         self.kept = Some(chosen.arc_length);
         Sought::Point(chosen)
+    }
+
+    /// What it knows of the segment.
+    #[inline]
+    pub(crate) fn warm(&self) -> &Warm {
+        &self.warm
+    }
+
+    /// Whether [`Self::seek`] would take the nearest point of the whole segment, at `arc_length`, for the one that it keeps.
+    #[inline]
+    pub(crate) fn keeps(&self, settings: &SeekSettings, fragments: &Fragments, arc_length: f64) -> bool {
+        self.kept.is_some_and(|kept| (arc_length - kept).abs() <= settings.transit_margin)
+            && fragments.intervals().iter().any(|(from, to)| *from <= arc_length && arc_length <= *to)
+    }
+
+    /// Keeps it.
+    #[inline]
+    pub(crate) fn keep(&mut self, arc_length: f64) {
+        self.kept = Some(arc_length);
+        self.warm.thank();
     }
 
     /// Arc length of the nearest point that the robot keeps, m.

@@ -2,11 +2,12 @@
 use super::sight::Knowledge;
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
-use super::{ChainScenario, ScenarioError};
+use super::{ChainScenario, Encroaching, Outcome, ScenarioError};
 use crate::Vector2;
-use crate::agent::{Action, Agent, Leader, Surroundings};
+use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
+use crate::lanes::LANES;
 use crate::laws::RigidMotion;
 use crate::trench::Trench;
 use nalgebra::Isometry2;
@@ -34,7 +35,7 @@ pub struct ChainSimulation<T> {
     seen_deviations: Vec<f64>,
     /// The places that robots had chosen at the last tick, else where they were, m.
     seen_places: Vec<Vector2<f64>>,
-    pub(super) actions: Vec<Action>,
+    pub(super) outcomes: Vec<Outcome>,
     vicinity: Vicinity,
     workers: Arc<dyn Workers + Send + Sync>,
     pub(super) steps: u64,
@@ -66,7 +67,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             deviations: vec![f64::INFINITY; count],
             seen_deviations: vec![f64::INFINITY; count],
             seen_places: scenario.robots.iter().map(|robot| robot.position).collect(),
-            actions: Vec::with_capacity(count),
+            outcomes: Vec::with_capacity(count),
             vicinity: Vicinity::default(),
             workers: Arc::new(Alone),
             steps: 0,
@@ -85,6 +86,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
     /// Robots whose position is no longer finite, where they encroach on the segment.
     pub fn step(&mut self) -> Result<(), ScenarioError> {
         self.tick()?;
+        self.outcomes.resize(self.robots.len(), Outcome::default());
         let Self { scenario, real, obstacles, velocities, robots, seen, agents, .. } = self;
         let since = (self.steps % u64::from(scenario.steps_per_tick)) as f64 * scenario.step;
         let time = self.steps as f64 * scenario.step - since;
@@ -100,23 +102,23 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             seen_places: &self.seen_places,
             vicinity: &self.vicinity,
         };
-        self.actions.resize(robots.len(), Action::default());
         // Until the next tick nobody sees what the others do, so the order in which they act, and who works at it, is nothing.
         let size = robots.len().div_ceil(self.workers.count().max(1)).max(LEAST_SHARE);
-        if size >= robots.len() {
-            view.act(0, agents, robots, since, &mut self.actions);
+        let outcomes = self.outcomes.chunks_mut(size).zip(self.deviations.chunks_mut(size));
+        let parts = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(outcomes).enumerate();
+        let parts = parts.map(|(share, ((agents, robots), (outcomes, deviations)))| Part {
+            first: share * size,
+            agents,
+            robots,
+            outcomes,
+            deviations,
+        });
+        if size >= view.seen.len() {
+            parts.for_each(|part| view.act(since, part));
         } else {
-            let team = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(self.actions.chunks_mut(size));
-            let shares = team.enumerate().map(|(share, ((agents, robots), actions))| -> Share<'_> {
-                let view = &view;
-                Box::new(move || view.act(share * size, agents, robots, since, actions))
-            });
+            let view = &view;
+            let shares = parts.map(|part| -> Share<'_> { Box::new(move || view.act(since, part)) });
             self.workers.run(shares.collect());
-        }
-        for (deviation, action) in self.deviations.iter_mut().zip(&self.actions) {
-            if action.deviation.is_finite() {
-                *deviation = action.deviation;
-            }
         }
         self.steps += 1;
         Ok(())
@@ -135,8 +137,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         }
         self.seen.copy_from_slice(&self.robots);
         self.seen_deviations.copy_from_slice(&self.deviations);
-        for ((seen, robot), action) in self.seen_places.iter_mut().zip(&self.robots).zip(&self.actions) {
-            *seen = action.place.unwrap_or(robot.position);
+        if let Encroaching::ObstaclesAndPlaces(_) = self.scenario.encroaching {
+            for ((seen, robot), outcome) in self.seen_places.iter_mut().zip(&self.robots).zip(&self.outcomes) {
+                *seen = outcome.place.unwrap_or(robot.position);
+            }
         }
         let moves = self.scenario.moves();
         if moves {
@@ -146,7 +150,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         let found = self.look_round()?;
-        self.vicinity.look(&self.scenario, &self.seen, &self.real);
+        if found {
+            self.vicinity.forget();
+        }
+        self.vicinity.look(&self.scenario, &self.seen, (&self.real, &self.obstacles));
         let encroach = self.scenario.encroaching.robot_radius().is_some();
         if moves || found || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;
@@ -181,8 +188,16 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             seen_places: &self.seen_places,
             vicinity: &self.vicinity,
         };
-        for (index, agent) in agents.iter_mut().enumerate() {
-            agent.sense(&view.around(index))?;
+        let Some((first, others)) = agents.split_first_mut() else { return Ok(()) };
+        let mut around = view.around(0);
+        first.sense(&around)?;
+        let alike = scenario.encroaching.robot_radius().is_none();
+        for (agent, index) in others.iter_mut().zip(1..) {
+            view.stand_at(&mut around, index);
+            match alike {
+                true => agent.sense_as(first, &around),
+                false => agent.sense(&around)?,
+            }
         }
         Ok(())
     }
@@ -204,45 +219,110 @@ struct View<'a, T> {
     vicinity: &'a Vicinity,
 }
 
+/// Robots that act one after the other, from the one of index `first` on, and what comes of it.
+struct Part<'a, T> {
+    first: usize,
+    agents: &'a mut [Agent<T>],
+    robots: &'a mut [PointState],
+    outcomes: &'a mut [Outcome],
+    deviations: &'a mut [f64],
+}
+
 impl<T: Trench> View<'_, T> {
-    /// One step of the robots from the index `first` on.
-    fn act(
+    /// One step of some robots.
+    fn act(&self, since: f64, part: Part<'_, T>) {
+        let step = self.scenario.step;
+        let mut around = self.around(part.first);
+        let moment = around.moment(since);
+        let Some(settings) = part.agents.first().map(Agent::shared) else { return };
+        let robots = part.agents.chunks_mut(LANES).zip(part.robots.chunks_mut(LANES));
+        let outcomes = part.outcomes.chunks_mut(LANES).zip(part.deviations.chunks_mut(LANES));
+        for (first, ((agents, robots), (outcomes, deviations))) in
+            (part.first..).step_by(LANES).zip(robots.zip(outcomes))
+        {
+            let abreast = self.abreast(&settings, &moment, first, agents, robots);
+            let several = agents.iter_mut().zip(robots).zip(outcomes.iter_mut().zip(deviations));
+            for (lane, ((agent, robot), (outcome, deviation))) in several.enumerate() {
+                if let Some(abreast) = abreast.as_ref().filter(|abreast| abreast.tells(lane)) {
+                    let (acceleration, cut) = abreast.applied(lane);
+                    let (foot, distance) = abreast.drawn(lane);
+                    let (steered, drawn) = (abreast.steered(lane), Some(foot));
+                    *robot = robot.advanced_semi_implicit(acceleration, step);
+                    *outcome = Outcome { steered, acceleration, cut, attraction: drawn, place: drawn };
+                    *deviation = distance;
+                    continue;
+                }
+                let index = first + lane;
+                self.stand_at(&mut around, index);
+                let action = agent.act_at(&around, &moment, *robot, step);
+                let wanted = action.acceleration;
+                let acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
+                *robot = robot.advanced_semi_implicit(acceleration, step);
+                let (steered, cut) = (action.steered, action.cut);
+                *outcome = Outcome { steered, acceleration, cut, attraction: action.attraction, place: action.place };
+                if action.deviation.is_finite() {
+                    *deviation = action.deviation;
+                }
+            }
+        }
+    }
+
+    /// What robots side by side do, from the one of index `first` on, if that can be told of them together.
+    #[inline]
+    fn abreast(
         &self,
+        settings: &AgentSettings<T>,
+        moment: &Moment<'_>,
         first: usize,
         agents: &mut [Agent<T>],
-        robots: &mut [PointState],
-        since: f64,
-        actions: &mut [Action],
-    ) {
-        let step = self.scenario.step;
-        for ((index, done), (agent, robot)) in (first..).zip(actions).zip(agents.iter_mut().zip(robots)) {
-            let mut action = agent.act(&self.around(index), *robot, since, step);
-            let wanted = action.acceleration;
-            action.acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
-            *robot = robot.advanced_semi_implicit(action.acceleration, step);
-            *done = action;
-        }
+        robots: &[PointState],
+    ) -> Option<Abreast> {
+        let (agents, robots) = (agents.try_into().ok()?, robots.try_into().ok()?);
+        let cut = self.scenario.potential.cut();
+        let leader = |lane: usize| (first + lane).saturating_sub(1);
+        let side = Side {
+            time: self.time,
+            moment,
+            leaders: core::array::from_fn(|lane| self.seen[leader(lane)]),
+            deviations: core::array::from_fn(|lane| self.seen_deviations[leader(lane)]),
+            alone: core::array::from_fn(|lane| first + lane > 0 && self.vicinity.is_alone(first + lane, cut)),
+        };
+        Agent::act_abreast(settings, agents, robots, &side, self.scenario.step)
     }
 
     /// The surroundings of a robot at the tick.
     fn around(&self, index: usize) -> Surroundings<'_> {
         let (map_from_segment, motion) = self.frame;
-        let goal = self.scenario.team_goal.filter(|_| index == 0);
-        Surroundings {
+        let mut around = Surroundings {
             time: self.time,
             curve: &self.scenario.segment,
             map_from_segment,
             motion,
-            goal: goal.map(|goal| motion.at(map_from_segment.transform_point(&goal.into()).coords)),
-            leader: index
-                .checked_sub(1)
-                .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] }),
-            ahead: self.vicinity.ahead(self.scenario, self.seen, index),
-            places: &self.seen_places[..index],
-            behind: self.seen.len() - index - 1,
+            goal: None,
+            leader: None,
+            ahead: &[],
+            places: &[],
+            behind: 0,
             real: self.real,
             apparent: self.apparent,
             velocities: self.velocities,
-        }
+            clear: 0.0,
+        };
+        self.stand_at(&mut around, index);
+        around
+    }
+
+    /// Makes the surroundings of one robot those of another.
+    #[inline(always)]
+    fn stand_at<'a>(&'a self, around: &mut Surroundings<'a>, index: usize) {
+        let goal = self.scenario.team_goal.filter(|_| index == 0);
+        around.goal = goal.map(|goal| around.motion.at(around.map_from_segment.transform_point(&goal.into()).coords));
+        around.leader = index
+            .checked_sub(1)
+            .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] });
+        around.clear = self.vicinity.clear(index);
+        around.ahead = self.vicinity.ahead(self.seen, index);
+        around.places = &self.seen_places[..index];
+        around.behind = self.seen.len() - index - 1;
     }
 }

@@ -1,6 +1,7 @@
 //! Lists of neighbours that outlast several ticks (L. Verlet, "Computer experiments on classical fluids", 1967).
 use super::grid::Grid;
 use crate::Vector2;
+use crate::hull::ApparentObstacle;
 use crate::kinematics::PointState;
 
 /// How much farther than asked the lists reach, as a part of the range: the more, the longer they last, and the longer they are.
@@ -17,13 +18,18 @@ pub(super) struct Neighbours {
     others: Vec<u32>,
     ends: Vec<usize>,
     found: Vec<u32>,
+    /// How far each robot was from all obstacles then, at least, m.
+    clear: Vec<f64>,
+    keeps: f64,
 }
 
 impl Neighbours {
-    /// Makes sure that the lists hold whoever is within `range` (m) of each other now.
-    pub(super) fn update(&mut self, range: f64, robots: &[PointState]) {
+    /// Makes sure that the lists hold whoever is within `range` (m) of each other now. `obstacles` rest, and are the
+    /// same as before unless all was forgotten.
+    pub(super) fn update(&mut self, range: f64, robots: &[PointState], obstacles: &[ApparentObstacle]) {
         // Two robots come nearer to each other by twice as much, and a position that is not a number never keeps.
-        let keeps = 0.499 * SKIN * range;
+        self.keeps = 0.499 * SKIN * range;
+        let keeps = self.keeps;
         let near =
             |(anchor, robot): (&Vector2<f64>, &PointState)| (robot.position - anchor).norm_squared() <= keeps * keeps;
         let same = self.range == range && self.anchors.len() == robots.len();
@@ -45,9 +51,26 @@ impl Neighbours {
             self.others.extend(self.found.iter().copied().filter(within));
             self.ends.push(self.others.len());
         }
+        let least = |anchor: &Vector2<f64>| {
+            obstacles.iter().map(|obstacle| obstacle.shape.least_gap(*anchor)).fold(f64::INFINITY, f64::min)
+        };
+        self.clear.clear();
+        self.clear.extend(self.anchors.iter().map(least));
+    }
+
+    /// Seeks all anew at the next update.
+    pub(super) fn forget(&mut self) {
+        self.anchors.clear();
+    }
+
+    /// No obstacle is nearer to a robot than this, m.
+    #[inline]
+    pub(super) fn clear(&self, index: usize) -> f64 {
+        self.clear[index] - self.keeps
     }
 
     /// The others that may be within range of a robot, ascending.
+    #[inline]
     pub(super) fn of(&self, index: usize) -> &[u32] {
         let begin = index.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.others[begin..self.ends[index]]
@@ -70,7 +93,7 @@ mod tests {
                 starts.iter().map(|(x, y)| PointState::at_rest(Vector2::new(*x, *y))).collect();
             let mut neighbours = Neighbours::default();
             for _ in 0..6 {
-                neighbours.update(1.2, &robots);
+                neighbours.update(1.2, &robots, &[]);
                 for (index, robot) in robots.iter().enumerate() {
                     let near = |other: &usize| {
                         *other != index && (robots[*other].position - robot.position).norm() <= 1.2

@@ -1,10 +1,27 @@
 //! What can be seen of a simulated chain.
 use super::ChainSimulation;
-use crate::agent::{Action, Agent};
+use crate::Vector2;
+use crate::agent::Agent;
 use crate::curve::Interval;
 use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
+use crate::laws::Steered;
 use crate::trench::Trench;
+
+/// What a robot did at a step: as much of an [`Action`](crate::agent::Action) as is kept of thousands of robots.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Outcome {
+    /// What the law said, before limits.
+    pub steered: Steered,
+    /// What was applied, within the limits and the safety filter, m/s^2.
+    pub acceleration: Vector2<f64>,
+    /// Whether limits cut it.
+    pub cut: bool,
+    /// The point that drew the robot, m; none while its attraction was suspended.
+    pub attraction: Option<Vector2<f64>>,
+    /// The place that the robot had chosen on the segment, or its goal point, whether it drew or not, m.
+    pub place: Option<Vector2<f64>>,
+}
 
 impl<T: Trench> ChainSimulation<T> {
     /// Seconds simulated.
@@ -18,8 +35,8 @@ impl<T: Trench> ChainSimulation<T> {
     }
 
     /// What each robot did at the last step, by rank; none before the first.
-    pub fn actions(&self) -> &[Action] {
-        &self.actions
+    pub fn outcomes(&self) -> &[Outcome] {
+        &self.outcomes
     }
 
     /// Distances from the points that drew the robots at the last step, m; infinite before any did.

@@ -2,9 +2,9 @@
 use super::ChainScenario;
 use super::neighbours::Neighbours;
 use crate::Vector2;
-use crate::hull::Obstacle;
+use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
-use crate::safety::{Line, Passing, Stopping};
+use crate::safety::{Line, Passing};
 
 /// Interactions are of finite range: a robot is told of no others than those within it.
 #[derive(Debug, Clone, Default)]
@@ -14,6 +14,13 @@ pub(super) struct Vicinity {
     ahead: Vec<PointState>,
     lines: Vec<Line>,
     ends: Vec<Ends>,
+    /// Whether the robots ahead are those of the lists: where potentials have no bound, all are.
+    bounded: bool,
+    /// Indices of the real obstacles that rest, and whether all do.
+    resting: Vec<usize>,
+    all_rest: bool,
+    /// Whether what is clear of obstacles at a tick is so until the next: robots act but once, or there are none.
+    stays_clear: bool,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -24,18 +31,30 @@ struct Ends {
 
 impl Vicinity {
     /// Looks around at a tick. `seen` and `real` are robots and obstacles then.
-    pub(super) fn look<T>(&mut self, scenario: &ChainScenario<T>, seen: &[PointState], real: &[Obstacle]) {
+    pub(super) fn look<T>(
+        &mut self,
+        scenario: &ChainScenario<T>,
+        seen: &[PointState],
+        (real, apparent): (&[Obstacle], &[ApparentObstacle]),
+    ) {
         let reach = reach_of_potentials(scenario);
         let safety = scenario.options.safety.as_ref();
+        self.bounded = reach.is_some();
         if reach.is_none() && safety.is_none() {
             return;
         }
         let period = scenario.step * f64::from(scenario.steps_per_tick);
         let range = safety.map_or(0.0, |safety| safety.range(period));
-        self.neighbours.update(range.max(reach.unwrap_or(0.0)), seen);
+        self.neighbours.update(range.max(reach.unwrap_or(0.0)), seen, apparent);
         self.ahead.clear();
         self.lines.clear();
         self.ends.clear();
+        let at_rest = |(_, velocity): &(usize, Vector2<f64>)| *velocity == Vector2::zeros();
+        let obstacles = (0..real.len()).zip(scenario.velocities());
+        self.resting.clear();
+        self.resting.extend(obstacles.filter(at_rest).map(|(index, _)| index));
+        self.all_rest = self.resting.len() == real.len();
+        self.stays_clear = self.all_rest && (scenario.steps_per_tick == 1 || real.is_empty());
         let reach_squared = reach.map_or(0.0, |reach| reach * reach);
         for (index, robot) in seen.iter().enumerate() {
             for other in self.neighbours.of(index) {
@@ -49,31 +68,57 @@ impl Vicinity {
                     self.lines.push(safety.between(*robot, seen[at]));
                 }
             }
-            if let Some(safety) = safety {
-                self.lines.extend(resting(scenario, real, safety, *robot, range));
+            if let Some(safety) = safety.filter(|_| !(self.all_rest && self.neighbours.clear(index) > range)) {
+                for obstacle in &self.resting {
+                    let shape = &real[*obstacle].shape;
+                    if !shape.is_beyond(robot.position, range) {
+                        let outline = shape.outline();
+                        let near = outline.approach(robot.position).gap < range;
+                        self.lines.extend(near.then(|| safety.before(*robot, &outline)));
+                    }
+                }
             }
             self.ends.push(Ends { ahead: self.ahead.len(), lines: self.lines.len() });
         }
     }
 
     /// Robots ahead of the one at `index` besides its leader, by rank: those within reach, or all where reach has no bound.
-    pub(super) fn ahead<'a, T>(
-        &'a self,
-        scenario: &ChainScenario<T>,
-        seen: &'a [PointState],
-        index: usize,
-    ) -> &'a [PointState] {
+    #[inline]
+    pub(super) fn ahead<'a>(&'a self, seen: &'a [PointState], index: usize) -> &'a [PointState] {
         match self.ends.get(index) {
-            Some(end) if reach_of_potentials(scenario).is_some() => &self.ahead[self.begin(index).ahead..end.ahead],
+            Some(end) if self.bounded => &self.ahead[self.begin(index).ahead..end.ahead],
             _ => &seen[..index.saturating_sub(1)],
         }
     }
 
+    /// No apparent obstacle is nearer to a robot than this until the next tick, m; 0 where that is not known.
+    #[inline]
+    pub(super) fn clear(&self, index: usize) -> f64 {
+        let known = self.stays_clear && index < self.ends.len();
+        if known { self.neighbours.clear(index) } else { 0.0 }
+    }
+
+    /// Whether a robot has nobody and nothing near it but its leader until the next tick: no robot ahead, no obstacle within `cut` (m),
+    /// nothing that the safety filter looks at.
+    #[inline]
+    pub(super) fn is_alone(&self, index: usize, cut: f64) -> bool {
+        let Some(end) = self.ends.get(index) else { return false };
+        let begin = self.begin(index);
+        (begin.ahead, begin.lines) == (end.ahead, end.lines) && self.bounded && self.clear(index) > cut
+    }
+
+    /// What rests has changed.
+    pub(super) fn forget(&mut self) {
+        self.neighbours.forget();
+    }
+
+    #[inline]
     fn begin(&self, index: usize) -> Ends {
         index.checked_sub(1).map_or(Ends { ahead: 0, lines: 0 }, |before| self.ends[before])
     }
 
     /// What the filter leaves of the acceleration of a robot, `since` seconds after the tick.
+    #[inline]
     pub(super) fn admit<T>(
         &self,
         scenario: &ChainScenario<T>,
@@ -83,10 +128,14 @@ impl Vicinity {
         since: f64,
     ) -> Vector2<f64> {
         let (Some(safety), Some(end)) = (&scenario.options.safety, self.ends.get(index)) else { return wanted };
+        let lines = &self.lines[self.begin(index).lines..end.lines];
+        if lines.is_empty() && self.all_rest {
+            return wanted;
+        }
         let passing = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity != Vector2::zeros());
         let passing =
             passing.map(|(obstacle, velocity)| Passing { outline: obstacle.shape.outline(), velocity, since });
-        safety.admit(robot, wanted, &self.lines[self.begin(index).lines..end.lines], passing, scenario.step)
+        safety.admit(robot, wanted, lines, passing, scenario.step)
     }
 }
 
@@ -101,20 +150,4 @@ fn reach_of_potentials<T>(scenario: &ChainScenario<T>) -> Option<f64> {
         (_, None) => return None,
     };
     Some(scenario.zoning.radii().rho_hat + later)
-}
-
-/// Lines before the obstacles that rest.
-fn resting<'a, T>(
-    scenario: &'a ChainScenario<T>,
-    real: &'a [Obstacle],
-    safety: &'a Stopping,
-    robot: PointState,
-    range: f64,
-) -> impl Iterator<Item = Line> + 'a {
-    let at_rest = real.iter().zip(scenario.velocities()).filter(|(_, velocity)| *velocity == Vector2::zeros());
-    let near = at_rest
-        .filter(move |(obstacle, _)| !obstacle.shape.is_beyond(robot.position, range))
-        .map(|(obstacle, _)| obstacle.shape.outline())
-        .filter(move |outline| outline.approach(robot.position).gap < range);
-    near.map(move |outline| safety.before(robot, &outline))
 }

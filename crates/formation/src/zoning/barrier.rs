@@ -32,6 +32,7 @@ impl Barrier {
     }
 
     /// -dPsi/d(delta) >= 0, m/s^2.
+    #[inline(always)]
     pub(super) fn slope(&self, delta: f64) -> f64 {
         if delta >= self.width {
             0.0
@@ -43,6 +44,7 @@ impl Barrier {
     }
 
     /// Psi, with 0 at the edge.
+    #[inline(always)]
     pub(super) fn value(&self, delta: f64) -> f64 {
         if delta >= self.width {
             return 0.0;
@@ -56,10 +58,12 @@ impl Barrier {
         height(delta) - height(self.width) - self.offset() * (self.width - delta)
     }
 
+    #[inline]
     fn steepness(&self, delta: f64) -> f64 {
         0.5 * f64::from(self.exponent) * self.strength / power(delta, self.exponent + 1)
     }
 
+    #[inline]
     fn offset(&self) -> f64 {
         if self.continuous { self.steepness(self.width) } else { 0.0 }
     }

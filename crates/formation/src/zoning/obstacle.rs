@@ -67,6 +67,7 @@ impl ObstaclePotential {
     }
 
     /// Gap at which the repulsion begins, m: the clearance that encroaches on segments.
+    #[inline]
     pub fn cut(&self) -> f64 {
         self.cut
     }
@@ -77,11 +78,13 @@ impl ObstaclePotential {
     }
 
     /// Psi_hat'(gap) <= 0, m/s^2.
+    #[inline]
     pub fn force(&self, gap: f64) -> f64 {
         -self.barrier.slope(gap - self.pole)
     }
 
     /// Psi_hat(gap), 0 from the cut on, m^2/s^2.
+    #[inline]
     pub fn value(&self, gap: f64) -> f64 {
         self.barrier.value(gap - self.pole)
     }

@@ -65,6 +65,7 @@ impl Zoning {
     }
 
     /// The radii.
+    #[inline]
     pub fn radii(&self) -> &Radii {
         &self.radii
     }
@@ -75,27 +76,32 @@ impl Zoning {
     }
 
     /// The zone in which a robot at `distance` (m) is.
+    #[inline]
     pub fn zone(&self, distance: f64) -> Zone {
         self.radii.zone(distance)
     }
 
     /// Psi_hat'(d) <= 0: away from any robot ahead, m/s^2.
+    #[inline]
     pub fn repulsion(&self, distance: f64) -> f64 {
         -self.repulsion.slope(distance - self.radii.rho_underbar)
     }
 
     /// Psi'(d): away from or towards the leader, m/s^2.
+    #[inline(always)]
     pub fn force(&self, distance: f64) -> f64 {
         self.repulsion(distance) + self.attraction.slope(self.radii.rho_check - distance)
     }
 
     /// Psi_hat(d), 0 from rho_hat on, m^2/s^2.
+    #[inline]
     pub fn repulsive_value(&self, distance: f64) -> f64 {
         self.repulsion.value(distance - self.radii.rho_underbar)
     }
 
     /// Psi(d), 0 in the neutral zone, m^2/s^2. Bounded forces make it finite: its value at rho_underbar and at rho_check is
     /// the energy that carries a robot out of the zones, which A.12 (i) has as infinite.
+    #[inline(always)]
     pub fn value(&self, distance: f64) -> f64 {
         self.repulsive_value(distance) + self.attraction.value(self.radii.rho_check - distance)
     }

@@ -91,6 +91,7 @@ impl Radii {
     }
 
     /// The zone in which a robot at `distance` (m) is.
+    #[inline]
     pub fn zone(&self, distance: f64) -> Zone {
         if distance <= self.rho_underbar {
             Zone::Forbidden

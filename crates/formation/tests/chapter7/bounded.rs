@@ -38,7 +38,7 @@ fn energy_falls_under_limits() {
     let (mut before, mut cut) = (f64::INFINITY, 0);
     for _ in 0..200_000 {
         simulation.step().unwrap();
-        let action = simulation.actions()[0];
+        let action = simulation.outcomes()[0];
         cut += u32::from(action.cut);
         assert!(action.steered.lyapunov <= before + 1e-5, "{before} to {}", action.steered.lyapunov);
         assert!(action.acceleration.norm() <= CAPABILITY.acceleration + 1e-9);

@@ -1,0 +1,152 @@
+//! Several robots at once, in the lanes of vector instructions, while nothing but their leaders is near them: of thousands, most.
+use super::surroundings::Moment;
+use super::{Agent, AgentSettings, Encroaching, Method};
+use crate::Vector2;
+use crate::kinematics::PointState;
+use crate::lanes::{LANES, Vectors, mask};
+use crate::laws::{Push, Steered};
+use crate::seek::LeaderRule;
+use crate::trench::Trench;
+use wide::f64x4;
+
+/// What robots side by side see.
+pub(crate) struct Side<'a> {
+    /// Time of the tick, s.
+    pub(crate) time: f64,
+    pub(crate) moment: &'a Moment<'a>,
+    /// Their leaders at the tick, and the distances of these from what draws them, m.
+    pub(crate) leaders: [PointState; LANES],
+    pub(crate) deviations: [f64; LANES],
+    /// Whether a robot has a leader, and no robot ahead or obstacle acts on it besides.
+    pub(crate) alone: [bool; LANES],
+}
+
+/// What robots side by side do, in the lanes that `told` is set in: bit for bit what [`Agent::act_at`] says.
+pub(crate) struct Abreast {
+    told: u32,
+    steered: Vectors,
+    lyapunov: f64x4,
+    lyapunov_rate: f64x4,
+    applied: Vectors,
+    cut: u32,
+    foot: Vectors,
+    deviation: f64x4,
+}
+
+impl Abreast {
+    /// Whether it tells what the robot in a lane does.
+    #[inline]
+    pub(crate) fn tells(&self, lane: usize) -> bool {
+        self.told & (1 << lane) != 0
+    }
+
+    /// What the law says.
+    #[inline]
+    pub(crate) fn steered(&self, lane: usize) -> Steered {
+        Steered {
+            acceleration: self.steered.get(lane),
+            lyapunov: self.lyapunov.as_array()[lane],
+            lyapunov_rate: self.lyapunov_rate.as_array()[lane],
+        }
+    }
+
+    /// What limits leave of it, m/s^2, and whether they cut.
+    #[inline]
+    pub(crate) fn applied(&self, lane: usize) -> (Vector2<f64>, bool) {
+        (self.applied.get(lane), self.cut & (1 << lane) != 0)
+    }
+
+    /// The nearest point, which draws the robot, and its distance, m.
+    #[inline]
+    pub(crate) fn drawn(&self, lane: usize) -> (Vector2<f64>, f64) {
+        (self.foot.get(lane), self.deviation.as_array()[lane])
+    }
+}
+
+impl<T: Trench> Agent<T> {
+    /// [`Self::act_at`] for a step of `step` (s), for robots under the same settings of which it is quickly told; none if there are none.
+    #[inline]
+    pub(crate) fn act_abreast(
+        settings: &AgentSettings<T>,
+        agents: &mut [Self; LANES],
+        robots: &[PointState; LANES],
+        side: &Side<'_>,
+        step: f64,
+    ) -> Option<Abreast> {
+        let Moment { since, segment, motion } = side.moment;
+        let plain = settings.method == Method::Nearest
+            && settings.remedies.is_none()
+            && !matches!(settings.encroaching, Encroaching::ObstaclesAndPlaces(_))
+            && (motion.turn_rate, motion.turn_acceleration) == (0.0, 0.0);
+        if !plain || side.alone == [false; LANES] {
+            return None;
+        }
+        let (position, velocity) =
+            (Vectors::of(robots.map(|robot| robot.position)), Vectors::of(robots.map(|robot| robot.velocity)));
+        let feet = segment.nearest_abreast(position, agents.each_ref().map(|agent| agent.seeker.warm()))?;
+        let seeking = &settings.seeking;
+        let keeps = core::array::from_fn(|lane| {
+            side.alone[lane] && agents[lane].seeker.keeps(seeking, &agents[lane].fragments, feet.arc_length[lane])
+        });
+        let mut told = feet.known & mask(keeps);
+        // Zones.
+        let (radii, splat) = (settings.zoning.radii(), f64x4::splat);
+        let leader = Vectors::of(side.leaders.map(|leader| leader.coasted(*since).position));
+        let leader_velocity = Vectors::of(side.leaders.map(|leader| leader.velocity));
+        let apart = (leader - position).norm();
+        let (inner, outer) = (apart.simd_ge(splat(radii.rho_hat)), apart.simd_le(splat(radii.rho)));
+        if seeking.leader_rule == LeaderRule::WholeSegmentWhileFar {
+            told &= outer;
+        }
+        let under_way = f64x4::new(side.deviations).simd_gt(splat(seeking.settled_distance));
+        told &= under_way | (leader - feet.point).norm().simd_lt(splat(radii.rho_check));
+        // The law.
+        let law = &settings.law;
+        let still = Vectors::splat(motion.origin.velocity);
+        let offset = feet.point - position;
+        let deviation = offset.norm();
+        told &= deviation.simd_gt(f64x4::ZERO);
+        let each = |of: &dyn Fn(f64) -> f64| f64x4::new(deviation.to_array().map(of));
+        let pull = (each(&|distance| law.trench.slope(distance)) / deviation) * offset;
+        let sliding = velocity - still;
+        let damping = splat(law.damping);
+        let relative = splat(law.leader_damping) * (leader_velocity - still + still - velocity);
+        let mut steered = Vectors::splat(motion.origin.acceleration) - damping * sliding + relative + pull;
+        let mut lyapunov = 0.5 * sliding.norm_squared() + each(&|distance| law.trench.value(distance));
+        let lyapunov_rate = relative.dot(&sliding) - damping * sliding.norm_squared();
+        let mut walls = Vectors::splat(Vector2::zeros());
+        if !(inner & outer).all() {
+            let pushes = core::array::from_fn::<_, LANES, _>(|lane| {
+                Push::of_leader(&settings.zoning, position.get(lane), leader.get(lane))
+            });
+            walls = Vectors::of(pushes.map(|push| push.force));
+            lyapunov += f64x4::new(pushes.map(|push| push.value));
+        }
+        steered = steered + walls;
+        // Limits, where they cut nothing.
+        let frame = Vectors::splat(motion.origin.acceleration);
+        let wanted = steered - frame;
+        let (mut applied, mut differs) = (steered, 0);
+        if let Some(limits) = settings.limits {
+            let most = splat(limits.acceleration * limits.acceleration);
+            let potential = walls + pull;
+            let cut = potential + (wanted - walls - pull);
+            for within in [walls, potential, cut] {
+                told &= within.norm_squared().simd_le(most);
+            }
+            told &= (sliding + splat(step) * cut).norm().simd_le(splat(limits.speed));
+            applied = cut + frame;
+            differs = (cut.x.simd_ne(wanted.x) | cut.y.simd_ne(wanted.y)).to_bitmask();
+        }
+        let told = told.to_bitmask();
+        let now = side.time + since;
+        for (lane, agent) in agents.iter_mut().enumerate() {
+            if told & (1 << lane) != 0 {
+                agent.seeker.keep(feet.arc_length[lane]);
+                agent.arrived = deviation.as_array()[lane] <= seeking.settled_distance;
+                agent.last = Some(now);
+            }
+        }
+        Some(Abreast { told, steered, lyapunov, lyapunov_rate, applied, cut: differs, foot: feet.point, deviation })
+    }
+}

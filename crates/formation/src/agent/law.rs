@@ -1,0 +1,198 @@
+//! What a robot's law says, term by term.
+use super::attract::Attracted;
+use super::surroundings::Moment;
+use super::{Agent, Forces, Method, Powers, Surroundings};
+use crate::Vector2;
+use crate::curve::Foot;
+use crate::hull::{ApparentObstacle, Approach};
+use crate::kinematics::PointState;
+use crate::laws::{Attraction, NearestAttraction, Push, Steered, ZonedAttraction};
+use crate::trench::{Damping, Trench};
+
+/// A push within this of straight against the attraction (its sine) is turned by [`SIDESTEP`] (rad).
+const HEAD_ON: f64 = 0.05;
+const SIDESTEP: f64 = 0.15;
+
+/// A law as far as its terms are added up.
+#[derive(Default)]
+pub(super) struct Sum {
+    pub(super) steered: Steered,
+    pub(super) forces: Forces,
+    pub(super) powers: Powers,
+}
+
+/// What pushes a robot.
+#[derive(Clone, Copy)]
+enum By {
+    Leader,
+    Robot,
+    Obstacle,
+}
+
+impl Sum {
+    /// Adds the push of something that moves at `velocity` relative to the segment (m/s).
+    #[inline(always)]
+    fn add(&mut self, by: By, push: Push, velocity: Vector2<f64>) {
+        self.steered.acceleration += push.force;
+        self.steered.lyapunov += push.value;
+        self.account(by, push, velocity);
+    }
+
+    /// Notes down a push that the acceleration has already.
+    #[inline(always)]
+    fn account(&mut self, by: By, push: Push, velocity: Vector2<f64>) {
+        let (force, power) = match by {
+            By::Leader => (&mut self.forces.zoning, &mut self.powers.leader),
+            By::Robot => (&mut self.forces.robots, &mut self.powers.robots),
+            By::Obstacle => (&mut self.forces.obstacles, &mut self.powers.obstacles),
+        };
+        *force += push.force;
+        *power += push.force.dot(&velocity);
+    }
+}
+
+impl<T: Trench> Agent<T> {
+    /// The law for a robot that is drawn so, and what its leader does.
+    #[inline(always)]
+    pub(super) fn law(
+        &self,
+        around: &Surroundings<'_>,
+        moment: &Moment<'_>,
+        (robot, leader): (PointState, Option<PointState>),
+        attracted: &Attracted,
+    ) -> Sum {
+        let mut sum = match (self.settings.method, &attracted.foot, leader) {
+            (Method::Directed { direction, compensates }, Some(foot), Some(leader)) => {
+                let direction = direction.map(|direction| moment.segment.direction_in_map(direction));
+                self.directed(around, moment, (robot, leader), (direction, compensates), foot)
+            }
+            _ => self.nearest(around, moment, (robot, leader), attracted),
+        };
+        let Forces { trench, zoning, robots, obstacles, .. } = sum.forces;
+        sum.forces.damping = sum.steered.acceleration - trench - zoning - robots - obstacles;
+        sum
+    }
+
+    /// (7.13), and the laws of which only the goal point is another.
+    #[inline(always)]
+    fn nearest(
+        &self,
+        around: &Surroundings<'_>,
+        moment: &Moment<'_>,
+        (robot, leader): (PointState, Option<PointState>),
+        attracted: &Attracted,
+    ) -> Sum {
+        let (settings, attracting) = (&self.settings, attracted.attracting);
+        let target = attracting.draws.then(|| attracting.foot.position - robot.position);
+        let mut law = NearestAttraction {
+            trench: &settings.law.trench,
+            damping: settings.law.damping,
+            leader_damping: settings.law.leader_damping,
+        };
+        if let (Method::Goal(Some(damping)), Some(offset)) = (settings.method, target) {
+            law.damping = damping.coefficient(offset.norm());
+        }
+        let (position, still) = (robot.position, attracting.foot.velocity);
+        // Where the segment turns, robots at rest in it have different velocities: compared is what they do in it.
+        let alike = leader.map(|leader| leader.velocity - moment.motion.velocity_at(leader.position) + still);
+        let (steered, trench) = law.unpushed(robot, attracting, alike);
+        let mut sum = Sum { steered, forces: Forces { trench, ..Forces::default() }, powers: Powers::default() };
+        for other in around.ahead {
+            let there = other.coasted(moment.since);
+            let push = Push::of_robot_ahead(&settings.zoning, position, there.position);
+            sum.add(By::Robot, self.sidestepped(push, target), there.velocity - still);
+        }
+        if let Some(leader) = leader {
+            let push = match attracted.led {
+                true => Push::of_robot_ahead(&settings.zoning, position, leader.position),
+                false => Push::of_leader(&settings.zoning, position, leader.position),
+            };
+            sum.add(By::Leader, push, leader.velocity - still);
+        }
+        for index in self.obstacles_near(around, moment.since, position) {
+            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, position));
+            sum.add(By::Obstacle, self.sidestepped(push, target), around.velocity(index) - still);
+        }
+        sum
+    }
+
+    /// (6.1), seen from the segment's frame, which it is written for.
+    fn directed(
+        &self,
+        around: &Surroundings<'_>,
+        moment: &Moment<'_>,
+        (robot, leader): (PointState, PointState),
+        (direction, compensates): (Option<Vector2<f64>>, bool),
+        foot: &Foot,
+    ) -> Sum {
+        let settings = &self.settings;
+        let seen = |state: PointState| PointState {
+            velocity: state.velocity - moment.motion.velocity_at(state.position),
+            ..state
+        };
+        let (robot_seen, leader_seen) = (seen(robot), seen(leader));
+        let across = direction.unwrap_or_else(|| Vector2::new(-foot.tangent.y, foot.tangent.x));
+        let attraction = Attraction::on_line(robot_seen, across, foot.point, foot.tangent)
+            .unwrap_or(Attraction { point: foot.point, velocity: Vector2::zeros() });
+        let law = ZonedAttraction {
+            trench: &settings.law.trench,
+            zoning: settings.zoning,
+            damping: settings.law.damping,
+            leader_damping: settings.law.leader_damping,
+            compensates,
+        };
+        let mut sum = Sum { steered: law.steer(robot_seen, attraction, leader_seen, &[]), ..Sum::default() };
+        sum.forces.trench = crate::laws::pull(&settings.law.trench, attraction.point - robot.position);
+        let push = Push::of_leader(&settings.zoning, robot.position, leader.position);
+        sum.account(By::Leader, push, leader_seen.velocity);
+        let frame = moment.motion.at(robot.position);
+        for other in around.ahead {
+            let there = other.coasted(moment.since);
+            let push = Push::of_robot_ahead(&settings.zoning, robot.position, there.position);
+            sum.add(By::Robot, push, there.velocity - frame.velocity);
+        }
+        for index in self.obstacles_near(around, moment.since, robot.position) {
+            let approach = self.approach(around, moment.since, index, robot.position);
+            let push = Push::of_obstacle(&settings.potential, approach);
+            sum.add(By::Obstacle, push, around.velocity(index) - frame.velocity);
+        }
+        sum.steered.acceleration += frame.acceleration;
+        sum
+    }
+
+    /// The obstacles that may push a robot, by their indices: the others' potential is cut before it reaches so far.
+    fn obstacles_near(
+        &self,
+        around: &Surroundings<'_>,
+        since: f64,
+        robot: Vector2<f64>,
+    ) -> impl Iterator<Item = usize> {
+        let cut = self.settings.potential.cut();
+        let near = move |(index, obstacle): &(usize, &ApparentObstacle)| {
+            !obstacle.shape.is_beyond(robot - around.displacement(*index, since), cut)
+                || self.remedy.as_ref().is_some_and(|remedy| remedy.concerns(obstacle.id))
+        };
+        // A guard stands before an obstacle, by less than its potential reaches from the robot that it is for.
+        let known = if around.clear > cut && self.remedy.is_none() { &[] } else { around.apparent };
+        known.iter().enumerate().filter(near).map(|(index, _)| index)
+    }
+
+    fn approach(&self, around: &Surroundings<'_>, since: f64, index: usize, robot: Vector2<f64>) -> Approach {
+        match &self.remedy {
+            Some(remedy) => remedy.approach(around, since, index, robot),
+            None => around.approach(index, since, robot),
+        }
+    }
+
+    /// A push against the attraction, turned to the robot's right where it would only stop it.
+    fn sidestepped(&self, push: Push, target: Option<Vector2<f64>>) -> Push {
+        let Some(target) = target.filter(|_| self.settings.sidesteps) else { return push };
+        let (against, across) = (push.force.dot(&target), push.force.perp(&target));
+        if against >= 0.0 || across.abs() > HEAD_ON * -against {
+            return push;
+        }
+        let (sine, cosine) = libm::sincos(SIDESTEP);
+        let [x, y] = [push.force.x, push.force.y];
+        Push { force: Vector2::new(cosine * x - sine * y, sine * x + cosine * y), ..push }
+    }
+}
