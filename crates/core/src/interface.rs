@@ -77,6 +77,8 @@ pub struct Subscribe {
     /// Whether a message wakes the node. Without, it is handed over before the next event that does: for what a core
     /// only uses then, so that twenty robots that tell each other where they are do not wake each other for it.
     pub wakes: bool,
+    /// Whether the next message makes up for one that was lost, so that a process on a slow link may do without repetition.
+    pub comes_again: bool,
 }
 
 impl Subscribe {
@@ -87,7 +89,13 @@ impl Subscribe {
 
     /// A topic of messages of this type.
     pub fn of_type(topic: impl Into<String>, type_info: &'static TypeInfo, qos: Qos) -> Self {
-        Self { topic: topic.into(), type_info, qos, wakes: true }
+        Self { topic: topic.into(), type_info, qos, wakes: true, comes_again: true }
+    }
+
+    /// The same, where each message counts by itself: it is repeated until it has come, over slow links too.
+    #[must_use]
+    pub fn once(self) -> Self {
+        Self { comes_again: false, ..self }
     }
 
     /// The same, read with the next event that wakes the node. That must come soon: by a tick, or a timer of the node.

@@ -17,11 +17,19 @@ fn parameters() -> Vec<ParameterDescriptor> {
     vec![
         ParameterDescriptor::string("role", "probe", "source or probe").read_only(),
         ParameterDescriptor::bool("shared_memory", true, "whether the source uses it").read_only(),
+        ParameterDescriptor::bool("best_effort", false, "messages may be lost, as images may").read_only(),
         ParameterDescriptor::integer("bytes", 12, "length of a message: a stamp and zeros")
             .range(12.0, 1.0e7)
             .read_only(),
         ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e5).read_only(),
-        ParameterDescriptor::integer("count", 2000, "messages to measure").range(100.0, 1.0e7).read_only(),
+        ParameterDescriptor::integer(
+            "skip",
+            0,
+            "messages before the first that is measured: nodes find one another meanwhile",
+        )
+        .range(0.0, 1.0e7)
+        .read_only(),
+        ParameterDescriptor::integer("count", 2000, "messages to measure").range(1.0, 1.0e7).read_only(),
     ]
 }
 
@@ -31,11 +39,12 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     let local =
         if parameters.bool("shared_memory")? { Local::SharedMemory { max_len: bytes } } else { Local::NetworkOnly };
     let mut interface = Interface::default();
+    let qos = if parameters.bool("best_effort")? { Qos::SENSOR } else { Qos::RELIABLE };
     let source = parameters.str("role")? == "source";
     if source {
-        interface.publications = vec![Advertise { topic, type_info: UInt64::TYPE, qos: Qos::RELIABLE, local }];
+        interface.publications = vec![Advertise { topic, type_info: UInt64::TYPE, qos, local }];
     } else {
-        interface.subscriptions = vec![Subscribe::to::<UInt64>(topic, Qos::RELIABLE)];
+        interface.subscriptions = vec![Subscribe::to::<UInt64>(topic, qos)];
     }
     let period = 1.0 / parameters.f64("rate")?;
     let next = source.then_some(Steady(0));
@@ -44,6 +53,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         period,
         next,
         message: vec![0; bytes],
+        skip: parameters.usize("skip")?,
         count: parameters.usize("count")?,
         nanoseconds: Vec::new(),
     }))
@@ -54,6 +64,7 @@ struct Latency {
     period: f64,
     next: Option<Steady>,
     message: Vec<u8>,
+    skip: usize,
     count: usize,
     nanoseconds: Vec<u64>,
 }
@@ -73,6 +84,10 @@ impl Latency {
 
     fn measure(&mut self, at: Times, cdr: &[u8], sink: &mut dyn Sink) {
         let Ok(stamp) = UInt64::decode(cdr) else { return };
+        if self.skip > 0 {
+            self.skip -= 1;
+            return;
+        }
         self.nanoseconds.push(at.steady.0.saturating_sub(stamp.data));
         if self.nanoseconds.len() == self.count {
             self.nanoseconds.sort_unstable();

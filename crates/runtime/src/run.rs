@@ -19,7 +19,8 @@ use std::{env, io};
 use trench_config::params::USE_SIM_TIME;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::arguments::{
-    Arguments, CLOCK_REFERENCE, Names, PUBLISH_OVER_NETWORK, SERVE_CLOCK, UsageError, process_parameters,
+    Arguments, CLOCK_REFERENCE, NETWORK_RATE, Names, PUBLISH_OVER_NETWORK, READ_BEST_EFFORT, SERVE_CLOCK, UsageError,
+    process_parameters,
 };
 use trench_core::{Files, NodeContext, NodeCore, NodeDescription};
 use trench_journal::{BuildError, Disk, Journals};
@@ -178,8 +179,10 @@ fn prepare<'a>(
         return Err(RunError::Config(vec![parameters.error(CLOCK_REFERENCE, problem, "leave one of them out")]));
     }
     let serve_clock = parameters.bool(SERVE_CLOCK).map_err(|error| RunError::Config(vec![error]))?;
-    let over_network = parameters.str_list(PUBLISH_OVER_NETWORK).map_err(|error| RunError::Config(vec![error]))?;
-    let publish_over_network = over_network.to_vec();
+    let topics =
+        |name| parameters.str_list(name).map(<[String]>::to_vec).map_err(|error| RunError::Config(vec![error]));
+    let (publish_over_network, read_best_effort) = (topics(PUBLISH_OVER_NETWORK)?, topics(READ_BEST_EFFORT)?);
+    let network_rate = parameters.f64(NETWORK_RATE).map_err(|error| RunError::Config(vec![error]))?;
     let name = logger_name(&full);
     let level = arguments.level_of(&name);
     let equipment = Equipment {
@@ -190,6 +193,8 @@ fn prepare<'a>(
         rosout: arguments.rosout,
         checkpoint,
         publish_over_network,
+        read_best_effort,
+        network_rate,
         parameters: ParameterServer::new(full, descriptors.to_vec(), parameters),
     };
     Ok(Prepared { core, names, equipment, lease })

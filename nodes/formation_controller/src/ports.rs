@@ -44,7 +44,7 @@ pub(crate) fn interface(settings: &Settings, others: &[String]) -> Interface {
         Subscribe::to::<Formation>("/formation", Qos::LATCHED),
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
         Subscribe::to::<ApparentObstacleArray>("/apparent_obstacles", Qos::RELIABLE).without_waking(),
-        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
+        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE).once(),
         Subscribe::to::<LinkStatus>(format!("/{}/link", settings.robot), Qos::RELIABLE).without_waking(),
     ];
     let leader_state =

@@ -86,7 +86,7 @@ fn interface(settings: &Settings) -> Interface {
     let command = if settings.stamped { TwistStamped::TYPE } else { Twist::TYPE };
     let mut subscriptions = vec![
         Subscribe::to::<RunState>("/run_state", Qos::LATCHED),
-        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE),
+        Subscribe::to::<Bool>("/emergency_stop", Qos::RELIABLE).once(),
     ];
     // The longest is a link on which everybody is heard.
     let robots = settings.robots.iter().map(|(name, _)| name.clone());

@@ -6,7 +6,9 @@ mod parameters;
 mod remap;
 
 pub use error::UsageError;
-pub use parameters::{CLOCK_REFERENCE, PUBLISH_OVER_NETWORK, SERVE_CLOCK, process_parameters};
+pub use parameters::{
+    CLOCK_REFERENCE, NETWORK_RATE, PUBLISH_OVER_NETWORK, READ_BEST_EFFORT, SERVE_CLOCK, process_parameters,
+};
 pub use remap::{NameKind, Names, Remap};
 
 use crate::Level;

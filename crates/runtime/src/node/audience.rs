@@ -23,6 +23,11 @@ impl Audience {
         self.served = readers;
     }
 
+    /// Whom only the network reaches.
+    pub(super) fn beyond(&self) -> BTreeSet<Gid> {
+        self.matched.difference(&self.served).copied().collect()
+    }
+
     /// Whether shared memory reaches every reader: nobody is left whom only the network reaches.
     pub(super) fn shares_memory(&self) -> bool {
         self.matched.is_subset(&self.served)
@@ -41,6 +46,7 @@ mod tests {
             audience.matched(gids(matched));
             audience.served(gids(served));
             assert_eq!(audience.shares_memory(), expected, "{matched:?} {served:?}");
+            assert_eq!(audience.beyond().is_empty(), expected);
         };
         check(&[], &[], true);
         check(&[], &[1], true);

@@ -17,7 +17,7 @@ use crate::transport::{TransportError, full_name};
 use rustdds::mio1::{Interest, Registry, Token, event};
 use std::collections::BTreeMap;
 use trench_core::arguments::{NameKind, Names};
-use trench_core::{Advertise, Level, Local, NodeCore, Qos, Subscribe};
+use trench_core::{Advertise, Durability, Level, Local, NodeCore, Qos, Reliability, Subscribe};
 use trench_msgs::Message;
 use trench_msgs::rcl_interfaces::Log;
 use trench_msgs::rosgraph_msgs::Clock as ClockMessage;
@@ -76,6 +76,10 @@ pub(crate) struct Equipment {
     pub(crate) checkpoint: Checkpoint,
     /// Topics that also go over the network although they are meant for this host; `*` means all.
     pub(crate) publish_over_network: Vec<String>,
+    /// Topics of which the node takes what comes; `*` means all that are not latched.
+    pub(crate) read_best_effort: Vec<String>,
+    /// bit/s, that images of each topic may take of the network.
+    pub(crate) network_rate: f64,
     /// The node whose clock is ROS time, if it is not this host's.
     pub(crate) clock_reference: Option<String>,
     /// Whether the node tells its time to others.
@@ -110,7 +114,9 @@ pub(crate) fn connect(
     }
     for (port, subscribe) in interface.subscriptions.iter().enumerate() {
         let topic = names.resolve(&subscribe.topic, NameKind::Topic);
-        to.subscribe(&node, Listener { node: index, what: Heard::Port(port) }, topic, subscribe, true)?;
+        let qos = asked_for(subscribe, is_named(&equipment.read_best_effort, &topic));
+        let subscribe = Subscribe { qos, ..subscribe.clone() };
+        to.subscribe(&node, Listener { node: index, what: Heard::Port(port) }, topic, &subscribe, true)?;
     }
     let mut publications = Vec::new();
     for advertise in &interface.publications {
@@ -157,6 +163,21 @@ pub(crate) fn connect(
     Ok(Node { full_name: node, subscribed, core, reference, time_server, parameters, notices, ports })
 }
 
+/// Whether a list of topics has this one.
+fn is_named(topics: &[String], topic: &str) -> bool {
+    topics.iter().any(|name| name == "*" || name == topic)
+}
+
+/// What a node asks for that is told to take what comes: not the past of latched topics, nor what comes once.
+fn asked_for(subscribe: &Subscribe, takes_what_comes: bool) -> Qos {
+    let qos = subscribe.qos;
+    if takes_what_comes && subscribe.comes_again && qos.durability == Durability::Volatile {
+        Qos { reliability: Reliability::BestEffort, ..qos }
+    } else {
+        qos
+    }
+}
+
 /// Late joiners get the last lines; as many as rclcpp keeps.
 const ROSOUT: Qos = Qos { depth: 1000, ..Qos::LATCHED };
 
@@ -176,7 +197,7 @@ fn publication(
         Local::SharedMemory { max_len } => (shared(max_len), max_len, true),
         Local::SharedMemoryOnly { max_len } => {
             let local = shared(max_len);
-            let wanted = equipment.publish_over_network.iter().any(|name| name == "*" || *name == topic);
+            let wanted = is_named(&equipment.publish_over_network, &topic);
             // Where there is no shared memory, a slow image is better than none.
             let to_network = wanted || local.is_none();
             (local, max_len, to_network)
@@ -184,6 +205,7 @@ fn publication(
     };
     let name = TopicName::new(topic.as_str(), advertise.type_info);
     let mut publication = Publication::new(topic, advertise.qos, to.network.writer(node, &name, advertise.qos)?);
+    publication.limit(equipment.network_rate);
     if let Some(local) = local {
         publication.share(local, max_len, to_network);
     }
@@ -206,4 +228,24 @@ fn shared_writer(
             equipment.logger.log(equipment.clock.now().ros, Level::Warn, &text);
         })
         .ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_comes_again_may_be_lost() {
+        let named =
+            |topics: &[&str], topic| is_named(&topics.iter().map(ToString::to_string).collect::<Vec<_>>(), topic);
+        assert!(named(&["*"], "/goals") && named(&["/goals"], "/goals"));
+        assert!(!named(&["/goals"], "/goal") && !named(&[], "/goals"));
+        let taken = Qos { reliability: Reliability::BestEffort, ..Qos::RELIABLE };
+        let check = |subscribe: Subscribe, takes, expected| assert_eq!(asked_for(&subscribe, takes), expected);
+        let of = |qos| Subscribe::to::<Log>("/topic", qos);
+        check(of(Qos::RELIABLE), true, taken);
+        check(of(Qos::RELIABLE), false, Qos::RELIABLE);
+        check(of(Qos::RELIABLE).once(), true, Qos::RELIABLE);
+        check(of(Qos::LATCHED), true, Qos::LATCHED);
+    }
 }

@@ -80,11 +80,25 @@ impl Publication {
             return;
         }
         self.is_read = !readers.is_empty();
-        if let Some(local) = &mut self.local {
-            local.audience.matched(readers.clone());
-            // A reader that has just come did not ask for the past.
-            local.held.clear();
+        let Some(local) = &mut self.local else { return self.network.readers_changed(readers) };
+        local.audience.matched(readers.clone());
+        // A reader that has just come did not ask for the past.
+        local.held.clear();
+        self.tell_network();
+    }
+
+    /// Tells the network who needs it, where it may help.
+    fn tell_network(&mut self) {
+        if self.to_network
+            && let Some(local) = &self.local
+        {
+            self.network.readers_changed(&local.audience.beyond());
         }
+    }
+
+    /// Images may take so many bit/s of the network.
+    pub(crate) fn limit(&mut self, rate: f64) {
+        self.network.limit(rate);
     }
 
     /// From now on every message goes all ways: who speaks them may be gone before they are heard.
@@ -151,11 +165,16 @@ impl Publication {
     fn shares_memory(&mut self) -> bool {
         let Some(local) = &mut self.local else { return false };
         let readers = local.writer.readers();
-        if readers != local.readers {
+        let changed = readers != local.readers;
+        if changed {
             local.readers = readers;
             local.audience.served(local.writer.gids());
         }
-        local.may_be_alone && !self.last_words && local.audience.shares_memory()
+        let shares = local.may_be_alone && !self.last_words && local.audience.shares_memory();
+        if changed {
+            self.tell_network();
+        }
+        shares
     }
 
     /// The absolute name.

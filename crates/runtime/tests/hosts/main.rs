@@ -8,6 +8,8 @@
 mod common;
 #[cfg(test)]
 mod network;
+#[cfg(test)]
+mod slow;
 
 use common::{Island, Running};
 use network::{Host, World};
@@ -21,7 +23,9 @@ struct Pair {
     east_overrides: String,
     rmw: &'static str,
     /// What joins them, and the world that goes last.
-    _router: Option<Running>,
+    routers: Vec<Running>,
+    /// The network of the first of them.
+    network: String,
     _world: World,
 }
 
@@ -42,7 +46,8 @@ impl Pair {
             west_overrides: none(),
             east_overrides: none(),
             rmw,
-            _router: None,
+            routers: Vec::new(),
+            network: bridge,
             _world: world,
         })
     }
@@ -69,7 +74,31 @@ impl Pair {
         };
         let (west_overrides, east_overrides) = (through("10.78.0.254"), through("10.79.0.254"));
         let rmw = "rmw_zenoh_cpp";
-        Some(Self { island, west, east, west_overrides, east_overrides, rmw, _router: Some(router), _world: world })
+        Some(Self {
+            island,
+            west,
+            east,
+            west_overrides,
+            east_overrides,
+            rmw,
+            routers: vec![router],
+            network: one,
+            _world: world,
+        })
+    }
+
+    /// On one bridge, with a Zenoh router on each host, of which one knows the other by `link`.
+    fn with_routers(number: u16, link: &str) -> Option<Self> {
+        let mut pair = Self::on_a_bridge(number)?;
+        pair.rmw = "rmw_zenoh_cpp";
+        for (host, overrides) in [(&pair.east, ""), (&pair.west, link)] {
+            let mut router = host.move_to(&pair.island.command("router", ""));
+            router.env("ZENOH_CONFIG_OVERRIDE", overrides);
+            let router = Island::run(router);
+            assert!(router.line().contains(":7447"), "the router does not listen");
+            pair.routers.push(router);
+        }
+        Some(pair)
     }
 
     fn at(&self, host: &Host, overrides: &str, example: &str, arguments: &str) -> Running {

@@ -6,6 +6,10 @@
 //! under the same number, which a reader that has got the response drops as a copy, and which answers nobody for one that
 //! has not: its client asks again, as after any response that was lost.
 
+use super::rtps::{
+    DATA, HAS_DATA, HAS_INLINE_QOS, INFO_DST, PREFIX, RELATED_SAMPLE_IDENTITY, RELATED_SAMPLE_IDENTITY_CUSTOM,
+    SENTINEL, header, sequence_number, submessage,
+};
 use rustdds::GUID;
 use rustdds::SampleIdentity;
 use std::net::{SocketAddr, UdpSocket};
@@ -50,10 +54,7 @@ fn message(sample: &Sample<'_>, reader: GUID) -> Vec<u8> {
     let (writer_prefix, writer_id) = writer.split_at(PREFIX);
     let (reader_prefix, reader_id) = reader.split_at(PREFIX);
     let mut message = Vec::with_capacity(128 + sample.cdr.len());
-    message.extend(b"RTPS");
-    message.extend([2, 4]); // protocol version
-    message.extend([1, 18]); // vendor: the participant's, RustDDS
-    message.extend(writer_prefix);
+    header(&mut message, writer_prefix);
     submessage(&mut message, INFO_DST, 0, reader_prefix);
     let mut data = Vec::with_capacity(64 + sample.cdr.len());
     data.extend([0; 2]); // extra flags
@@ -73,32 +74,6 @@ fn message(sample: &Sample<'_>, reader: GUID) -> Vec<u8> {
     data.resize(data.len().next_multiple_of(4), 0);
     submessage(&mut message, DATA, HAS_INLINE_QOS | HAS_DATA, &data);
     message
-}
-
-/// Bytes of a GUID that name the participant.
-const PREFIX: usize = 12;
-const INFO_DST: u8 = 0x0e;
-const DATA: u8 = 0x15;
-const LITTLE_ENDIAN: u8 = 1;
-const HAS_INLINE_QOS: u8 = 2;
-const HAS_DATA: u8 = 4;
-const SENTINEL: u16 = 1;
-const RELATED_SAMPLE_IDENTITY: u16 = 0x0083;
-/// As Fast DDS called it first.
-const RELATED_SAMPLE_IDENTITY_CUSTOM: u16 = 0x800f;
-
-fn submessage(message: &mut Vec<u8>, kind: u8, flags: u8, content: &[u8]) {
-    message.extend([kind, LITTLE_ENDIAN | flags]);
-    // 0 says, of the last one, that it goes to the end.
-    message.extend(u16::try_from(content.len()).unwrap_or(0).to_le_bytes());
-    message.extend(content);
-}
-
-/// High half first, each half little-endian.
-fn sequence_number(number: i64) -> impl Iterator<Item = u8> {
-    let high = (number >> 32) as i32;
-    let low = number as u32;
-    high.to_le_bytes().into_iter().chain(low.to_le_bytes())
 }
 
 #[cfg(test)]

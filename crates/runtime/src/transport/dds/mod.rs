@@ -6,6 +6,8 @@
 
 mod client;
 mod graph;
+mod image;
+mod images;
 mod long;
 mod malformed;
 mod name;
@@ -14,6 +16,7 @@ mod pause;
 mod qos;
 mod raw;
 mod reader;
+mod rtps;
 mod server;
 mod status;
 mod writer;
@@ -22,6 +25,7 @@ pub(crate) use malformed::malformed_packets;
 pub(crate) use participant::Participant;
 
 use client::DdsClient;
+use images::Images;
 use name::DdsName;
 use reader::DdsReader;
 use server::DdsServer;

@@ -4,7 +4,7 @@ use super::graph::{Endpoint, Graph};
 use super::pause::Pause;
 use super::raw::{RawAdapter, RawMessage};
 use super::status::StatusReader;
-use super::{DdsClient, DdsName, DdsReader, DdsServer, DdsWriter, qos};
+use super::{DdsClient, DdsName, DdsReader, DdsServer, DdsWriter, Images, qos};
 use crate::transport::TransportError;
 use crate::transport::network::{
     Gid, GraphWatch, Network, NetworkReader, NetworkWriter, ServiceClient, ServiceServer, TopicName,
@@ -148,7 +148,9 @@ impl Network for Participant {
     }
 
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {
-        Ok(Box::new(self.dds_writer(node, &DdsName::message(name.topic(), name.type_name()), qos)?))
+        let writer = self.dds_writer(node, &DdsName::message(name.topic(), name.type_name()), qos)?;
+        let images = Images::of(writer.guid(), qos, self.participant.clone());
+        Ok(Box::new(writer.with_images(images)))
     }
 
     fn reader(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkReader>, TransportError> {

@@ -1,11 +1,12 @@
 //! The network end of a publication.
 
+use super::Images;
 use super::raw::{RawAdapter, RawMessage};
 use crate::transport::network::{Congested, Gid, NetworkWriter};
 use rustdds::bytes::Bytes;
 use rustdds::no_key::DataWriter;
 use rustdds::{GUID, RTPSEntity, SampleIdentity, SequenceNumber, Timestamp, WriteOptions, WriteOptionsBuilder};
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::time::Duration;
 
 /// Messages that may wait for room in the send window, which itself holds 8192 unacknowledged samples. Whoever is this
@@ -23,11 +24,19 @@ pub(crate) struct DdsWriter {
     writer: DataWriter<RawMessage, RawAdapter>,
     waiting: VecDeque<(RawMessage, WriteOptions)>,
     accepted: u64,
+    /// The way of images, on topics that may have some.
+    images: Option<Images>,
 }
 
 impl DdsWriter {
     pub(super) fn new(writer: DataWriter<RawMessage, RawAdapter>) -> Self {
-        Self { writer, waiting: VecDeque::new(), accepted: 0 }
+        Self { writer, waiting: VecDeque::new(), accepted: 0, images: None }
+    }
+
+    /// Images will take a way of their own.
+    pub(super) fn with_images(mut self, images: Images) -> Self {
+        self.images = Some(images);
+        self
     }
 
     /// Like [`NetworkWriter::write`], saying which request a response answers.
@@ -70,6 +79,10 @@ impl NetworkWriter for DdsWriter {
 
     /// Readers of ours are told the writer's own count where the network's differs.
     fn write_counted(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
+        if self.images.as_mut().is_some_and(|images| images.take(count, &message)) {
+            self.accepted = count;
+            return Ok(());
+        }
         let mut options = WriteOptionsBuilder::new();
         if count != self.accepted + 1 && message.len() <= LONGEST_ANNOTATED {
             let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
@@ -96,6 +109,18 @@ impl NetworkWriter for DdsWriter {
     fn settle(&mut self, max_wait: Duration) {
         self.flush();
         let _given_up = self.writer.wait_for_acknowledgments(max_wait);
+    }
+
+    fn limit(&mut self, rate: f64) {
+        if let Some(images) = &mut self.images {
+            images.limit(rate);
+        }
+    }
+
+    fn readers_changed(&mut self, readers: &BTreeSet<Gid>) {
+        if let Some(images) = &mut self.images {
+            images.readers_changed(readers);
+        }
     }
 }
 

@@ -3,9 +3,15 @@
 //! Nothing here ever blocks: what cannot be sent now waits or is refused, and what arrives wakes the event loop.
 
 mod graph;
+mod images;
+mod lane;
+mod pace;
 mod topic;
 
 pub(crate) use graph::{GraphChange, GraphWatch};
+pub(crate) use images::ImageWay;
+pub(crate) use lane::Lane;
+pub(crate) use pace::Pace;
 pub(crate) use topic::TopicName;
 
 use super::TransportError;
@@ -111,6 +117,12 @@ pub(crate) trait NetworkWriter {
 
     /// Waits until the readers have everything, or time is over.
     fn settle(&mut self, max_wait: Duration);
+
+    /// Images ([`ImageWay`]) may take so many bit/s from now on; without this, as many as there are.
+    fn limit(&mut self, rate: f64);
+
+    /// Follows whom only the network reaches.
+    fn readers_changed(&mut self, readers: &BTreeSet<Gid>);
 }
 
 /// Takes messages in the order of each writer.

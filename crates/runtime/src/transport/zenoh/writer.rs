@@ -2,9 +2,13 @@
 
 use super::attachment::Attachment;
 use super::long::LongWay;
-use crate::transport::network::{Congested, Gid, NetworkWriter};
+use crate::clock::steady_now;
+use crate::transport::network::{Congested, Gid, ImageWay, Lane, NetworkWriter, Pace};
 use rustdds::bytes::Bytes;
+use std::collections::BTreeSet;
+use std::io;
 use std::sync::Arc;
+use std::thread::sleep;
 use std::time::{Duration, Instant};
 use trench_core::{Durability, Qos, Reliability};
 use zenoh::Wait;
@@ -29,7 +33,7 @@ pub(super) struct ZenohWriter {
     publisher: Arc<AnyPublisher>,
     gid: Gid,
     accepted: u64,
-    reliable: bool,
+    images: ImageWay<Put>,
     /// Whether messages go the long way, from the first long one on: the order stays.
     long: bool,
     long_way: Arc<LongWay>,
@@ -97,7 +101,7 @@ impl ZenohWriter {
             publisher: Arc::new(publisher),
             gid,
             accepted: 0,
-            reliable,
+            images: ImageWay::new(qos),
             long: false,
             long_way,
             written: None,
@@ -106,18 +110,32 @@ impl ZenohWriter {
     }
 
     fn put(&mut self, message: Bytes, count: u64) -> Result<(), Congested> {
-        self.long |= message.len() >= LONG;
         self.accepted = count;
         self.written = Some(Instant::now());
         let attachment = Attachment { count: i64::try_from(count).unwrap_or(i64::MAX), gid: self.gid }.to_bytes();
+        let length = message.len();
         let put = Put { publisher: Arc::clone(&self.publisher), message, attachment };
+        if let Some(lane) = self.images.of(length, paced) {
+            lane.put(put);
+            return Ok(());
+        }
+        self.long |= length >= LONG;
         if !self.long {
             put.send();
             return Ok(());
         }
-        // A best-effort image that finds the way busy is lost like any other.
-        if self.long_way.send(put) || !self.reliable { Ok(()) } else { Err(Congested) }
+        if self.long_way.send(put) { Ok(()) } else { Err(Congested) }
     }
+}
+
+/// A lane on which one image follows the other when that has had its time at `rate` bit/s. Zenoh cuts them up and lets what
+/// has another priority pass.
+fn paced(rate: f64) -> io::Result<Lane<Put>> {
+    let mut pace = Pace::new(rate);
+    Lane::open(move |put: Put| {
+        sleep(pace.wait(steady_now(), put.message.len()));
+        put.send();
+    })
 }
 
 impl NetworkWriter for ZenohWriter {
@@ -151,4 +169,11 @@ impl NetworkWriter for ZenohWriter {
             std::thread::sleep(LAST_WORDS.saturating_sub(written.elapsed()).min(max_wait));
         }
     }
+
+    fn limit(&mut self, rate: f64) {
+        self.images.limit(rate);
+    }
+
+    /// Zenoh knows who reads.
+    fn readers_changed(&mut self, _readers: &BTreeSet<Gid>) {}
 }
