@@ -82,3 +82,14 @@ impl Mul<Vectors> for f64x4 {
 pub(crate) fn mask(lanes: [bool; LANES]) -> f64x4 {
     f64x4::new(lanes.map(|lane| f64::from_bits(if lane { u64::MAX } else { 0 })))
 }
+
+/// Lets the beginning of what will be read soon come nearer to the processor, without waiting for it.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn call_for<T>(value: &T) {
+    safe_arch::prefetch_t0(value);
+}
+
+/// Elsewhere it comes when it is read.
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) fn call_for<T>(_: &T) {}

@@ -2,6 +2,7 @@
 use super::surroundings::Moment;
 use super::{Agent, AgentSettings, Encroaching, Method};
 use crate::Vector2;
+use crate::curve::Curve;
 use crate::kinematics::PointState;
 use crate::lanes::{LANES, Vectors, mask};
 use crate::laws::{Push, Steered};
@@ -64,6 +65,12 @@ impl Abreast {
 }
 
 impl<T: Trench> Agent<T> {
+    /// Lets what the robot will be told of the segment come nearer to the processor.
+    #[inline]
+    pub(crate) fn call_for(&self, curve: &Curve) {
+        curve.call_for(self.seeker.warm());
+    }
+
     /// [`Self::act_at`] for a step of `step` (s), for robots under the same settings of which it is quickly told; none if there are none.
     #[inline]
     pub(crate) fn act_abreast(

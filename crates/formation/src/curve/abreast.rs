@@ -37,6 +37,14 @@ impl Jets {
 }
 
 impl Curve {
+    /// Lets what a point near `warm` will be asked about come nearer to the processor.
+    #[inline]
+    pub(crate) fn call_for(&self, warm: &Warm) {
+        if let Some(bend) = warm.piece_on(self).and_then(|piece| self.pieces.get(piece)?.bend.as_deref()) {
+            bend.call();
+        }
+    }
+
     /// The nearest points of those for whom it is quickly told, as [`Bend::rest`] does for one; none if there are no such points.
     #[inline]
     pub(crate) fn nearest_abreast(&self, points: Vectors, warm: [&Warm; LANES]) -> Option<Feet> {

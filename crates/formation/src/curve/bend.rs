@@ -2,6 +2,7 @@
 use super::arc_table::ArcTable;
 use super::path::Path;
 use super::primitive::{Jet, Primitive};
+use crate::lanes::call_for;
 use nalgebra::Vector2;
 
 /// A step of third order shorter than this by t leaves less than rounding does.
@@ -47,6 +48,18 @@ impl Bend {
         let ends = [jet_at(from), jet_at(to)];
         let margin = MARGIN * middle.jet.first.norm_squared();
         Some(Box::new(Self { ends, middle, centre, half, per_half: 1.0 / half, path, arc, calm: 0.0, margin }))
+    }
+
+    /// Lets it come nearer to the processor.
+    #[inline]
+    pub(super) fn call(&self) {
+        self.ends.iter().for_each(call_for);
+        call_for(&self.middle);
+        call_for(&self.centre);
+        if let Some(path) = &self.path {
+            path.coefficients().iter().step_by(4).for_each(call_for);
+        }
+        self.arc.call();
     }
 
     /// Learns how far from the middle of the piece points may be, m, for the pieces before and after it to be no nearer to them than

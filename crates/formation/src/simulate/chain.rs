@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// Robots below which a share is not worth a worker of its own.
 const LEAST_SHARE: usize = 128;
 
+/// How many robots ahead of those that act the segment is called for: pieces lie far apart in memory.
+const AHEAD: usize = 8;
+
 /// A chain under way.
 #[derive(Debug, Clone)]
 pub struct ChainSimulation<T> {
@@ -33,7 +36,8 @@ pub struct ChainSimulation<T> {
     /// Distances from the nearest points at the last step, m.
     pub(super) deviations: Vec<f64>,
     seen_deviations: Vec<f64>,
-    /// The places that robots had chosen at the last tick, else where they were, m.
+    /// The places that robots have chosen, and had at the last tick, else where they are or were, m: where somebody asks for them.
+    places: Vec<Vector2<f64>>,
     seen_places: Vec<Vector2<f64>>,
     pub(super) outcomes: Vec<Outcome>,
     vicinity: Vicinity,
@@ -66,6 +70,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             agents: vec![Agent::new(scenario.agent()); count],
             deviations: vec![f64::INFINITY; count],
             seen_deviations: vec![f64::INFINITY; count],
+            places: scenario.robots.iter().map(|robot| robot.position).collect(),
             seen_places: scenario.robots.iter().map(|robot| robot.position).collect(),
             outcomes: Vec::with_capacity(count),
             vicinity: Vicinity::default(),
@@ -104,14 +109,16 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         };
         // Until the next tick nobody sees what the others do, so the order in which they act, and who works at it, is nothing.
         let size = robots.len().div_ceil(self.workers.count().max(1)).max(LEAST_SHARE);
-        let outcomes = self.outcomes.chunks_mut(size).zip(self.deviations.chunks_mut(size));
+        let outcomes =
+            self.outcomes.chunks_mut(size).zip(self.deviations.chunks_mut(size)).zip(self.places.chunks_mut(size));
         let parts = agents.chunks_mut(size).zip(robots.chunks_mut(size)).zip(outcomes).enumerate();
-        let parts = parts.map(|(share, ((agents, robots), (outcomes, deviations)))| Part {
+        let parts = parts.map(|(share, ((agents, robots), ((outcomes, deviations), places)))| Part {
             first: share * size,
             agents,
             robots,
             outcomes,
             deviations,
+            places,
         });
         if size >= view.seen.len() {
             parts.for_each(|part| view.act(since, part));
@@ -138,9 +145,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         self.seen.copy_from_slice(&self.robots);
         self.seen_deviations.copy_from_slice(&self.deviations);
         if let Encroaching::ObstaclesAndPlaces(_) = self.scenario.encroaching {
-            for ((seen, robot), outcome) in self.seen_places.iter_mut().zip(&self.robots).zip(&self.outcomes) {
-                *seen = outcome.place.unwrap_or(robot.position);
-            }
+            self.seen_places.copy_from_slice(&self.places);
         }
         let moves = self.scenario.moves();
         if moves {
@@ -226,6 +231,7 @@ struct Part<'a, T> {
     robots: &'a mut [PointState],
     outcomes: &'a mut [Outcome],
     deviations: &'a mut [f64],
+    places: &'a mut [Vector2<f64>],
 }
 
 impl<T: Trench> View<'_, T> {
@@ -235,11 +241,16 @@ impl<T: Trench> View<'_, T> {
         let mut around = self.around(part.first);
         let moment = around.moment(since);
         let Some(settings) = part.agents.first().map(Agent::shared) else { return };
-        let robots = part.agents.chunks_mut(LANES).zip(part.robots.chunks_mut(LANES));
+        let tells = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndPlaces(_));
+        let robots = part.robots.chunks_mut(LANES);
         let outcomes = part.outcomes.chunks_mut(LANES).zip(part.deviations.chunks_mut(LANES));
-        for (first, ((agents, robots), (outcomes, deviations))) in
-            (part.first..).step_by(LANES).zip(robots.zip(outcomes))
-        {
+        let mut later = part.agents;
+        for (first, (robots, (outcomes, deviations))) in (part.first..).step_by(LANES).zip(robots.zip(outcomes)) {
+            let (agents, rest) = later.split_at_mut(robots.len());
+            later = rest;
+            for agent in later.iter().skip(AHEAD).step_by(2).take(2) {
+                agent.call_for(&self.scenario.segment);
+            }
             let abreast = self.abreast(&settings, &moment, first, agents, robots);
             let several = agents.iter_mut().zip(robots).zip(outcomes.iter_mut().zip(deviations));
             for (lane, ((agent, robot), (outcome, deviation))) in several.enumerate() {
@@ -248,7 +259,7 @@ impl<T: Trench> View<'_, T> {
                     let (foot, distance) = abreast.drawn(lane);
                     let (steered, drawn) = (abreast.steered(lane), Some(foot));
                     *robot = robot.advanced_semi_implicit(acceleration, step);
-                    *outcome = Outcome { steered, acceleration, cut, attraction: drawn, place: drawn };
+                    *outcome = Outcome { steered, acceleration, cut, attraction: drawn };
                     *deviation = distance;
                     continue;
                 }
@@ -259,7 +270,10 @@ impl<T: Trench> View<'_, T> {
                 let acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
                 *robot = robot.advanced_semi_implicit(acceleration, step);
                 let (steered, cut) = (action.steered, action.cut);
-                *outcome = Outcome { steered, acceleration, cut, attraction: action.attraction, place: action.place };
+                *outcome = Outcome { steered, acceleration, cut, attraction: action.attraction };
+                if tells {
+                    part.places[index - part.first] = action.place.unwrap_or(robot.position);
+                }
                 if action.deviation.is_finite() {
                     *deviation = action.deviation;
                 }

@@ -16,7 +16,7 @@ pub(super) struct Neighbours {
     anchors: Vec<Vector2<f64>>,
     /// The lists one after the other, each ascending, and where they end.
     others: Vec<u32>,
-    ends: Vec<usize>,
+    ends: Vec<u32>,
     found: Vec<u32>,
     /// How far each robot was from all obstacles then, at least, m.
     clear: Vec<f64>,
@@ -49,7 +49,7 @@ impl Neighbours {
                 *other as usize != index && (self.anchors[*other as usize] - anchor).norm_squared() <= reach * reach
             };
             self.others.extend(self.found.iter().copied().filter(within));
-            self.ends.push(self.others.len());
+            self.ends.push(self.others.len() as u32);
         }
         let least = |anchor: &Vector2<f64>| {
             obstacles.iter().map(|obstacle| obstacle.shape.least_gap(*anchor)).fold(f64::INFINITY, f64::min)
@@ -73,7 +73,7 @@ impl Neighbours {
     #[inline]
     pub(super) fn of(&self, index: usize) -> &[u32] {
         let begin = index.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.others[begin..self.ends[index]]
+        &self.others[begin as usize..self.ends[index] as usize]
     }
 }
 

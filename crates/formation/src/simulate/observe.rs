@@ -19,8 +19,6 @@ pub struct Outcome {
     pub cut: bool,
     /// The point that drew the robot, m; none while its attraction was suspended.
     pub attraction: Option<Vector2<f64>>,
-    /// The place that the robot had chosen on the segment, or its goal point, whether it drew or not, m.
-    pub place: Option<Vector2<f64>>,
 }
 
 impl<T: Trench> ChainSimulation<T> {

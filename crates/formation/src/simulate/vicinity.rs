@@ -25,8 +25,8 @@ pub(super) struct Vicinity {
 
 #[derive(Debug, Clone, Copy)]
 struct Ends {
-    ahead: usize,
-    lines: usize,
+    ahead: u32,
+    lines: u32,
 }
 
 impl Vicinity {
@@ -78,7 +78,7 @@ impl Vicinity {
                     }
                 }
             }
-            self.ends.push(Ends { ahead: self.ahead.len(), lines: self.lines.len() });
+            self.ends.push(Ends { ahead: self.ahead.len() as u32, lines: self.lines.len() as u32 });
         }
     }
 
@@ -86,7 +86,7 @@ impl Vicinity {
     #[inline]
     pub(super) fn ahead<'a>(&'a self, seen: &'a [PointState], index: usize) -> &'a [PointState] {
         match self.ends.get(index) {
-            Some(end) if self.bounded => &self.ahead[self.begin(index).ahead..end.ahead],
+            Some(end) if self.bounded => &self.ahead[self.begin(index).ahead as usize..end.ahead as usize],
             _ => &seen[..index.saturating_sub(1)],
         }
     }
@@ -128,7 +128,7 @@ impl Vicinity {
         since: f64,
     ) -> Vector2<f64> {
         let (Some(safety), Some(end)) = (&scenario.options.safety, self.ends.get(index)) else { return wanted };
-        let lines = &self.lines[self.begin(index).lines..end.lines];
+        let lines = &self.lines[self.begin(index).lines as usize..end.lines as usize];
         if lines.is_empty() && self.all_rest {
             return wanted;
         }
