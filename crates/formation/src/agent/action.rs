@@ -120,6 +120,8 @@ pub struct Driven {
     pub first: Action,
     /// Whether limits ever cut.
     pub cut: bool,
+    /// Whether obstacles ever pushed.
+    pub pushed: bool,
     /// What each input brings into the Lyapunov function.
     pub work: Work,
 }

@@ -174,15 +174,25 @@ impl<T: Trench> Agent<T> {
         let step = duration / count;
         let first = self.act(around, robot, 0.0, step);
         let mut end = robot.advanced_semi_implicit(first.acceleration, step);
-        let (mut cut, mut work) = (first.cut, Work::default());
+        let is_pushed = |action: &Action| action.forces.obstacles != Vector2::zeros();
+        let (mut cut, mut pushed, mut work) = (first.cut, is_pushed(&first), Work::default());
         work.add(&first, step);
         for index in 1..count as u32 {
             let action = self.act(around, end, f64::from(index) * step, step);
             cut |= action.cut;
+            pushed |= is_pushed(&action);
             work.add(&action, step);
             end = end.advanced_semi_implicit(action.acceleration, step);
         }
         let mean_velocity = (end.position - robot.position) / duration;
-        Driven { end, mean_velocity, mean_acceleration: (end.velocity - robot.velocity) / duration, first, cut, work }
+        Driven {
+            end,
+            mean_velocity,
+            mean_acceleration: (end.velocity - robot.velocity) / duration,
+            first,
+            cut,
+            pushed,
+            work,
+        }
     }
 }

@@ -33,7 +33,7 @@ impl Recursion {
         let error = libm::hypot((goal.position - robot.position).norm(), (goal.velocity - robot.velocity).norm());
         let ahead = leader.map_or(0.0, |leader| leader.error_bound);
         let bound = self.follow(growth.overshoot * error, growth.gain, ahead);
-        let alone = driven.first.forces.obstacles == Vector2::zeros() && goal.acceleration == Vector2::zeros();
+        let alone = !driven.pushed && goal.acceleration == Vector2::zeros();
         if !alone {
             self.restart();
         }

@@ -1,0 +1,183 @@
+//! A robot's way out of local minima (7.6, 7.7, Remark 6.4.1): what it remembers of one, and how that goes on.
+//!
+//! [`choose`] notices that a robot is caught or enclosed and chooses; [`sight`] is what there is to be seen.
+mod choose;
+mod sight;
+
+pub(super) use sight::Sight;
+
+use super::{RemedyState, Surroundings};
+use crate::Vector2;
+use crate::avoidance::{Guard, Watch};
+use crate::curve::Foot;
+use crate::hull::Approach;
+
+/// What one robot remembers.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Remedy {
+    watch: Watch,
+    state: State,
+}
+
+#[derive(Debug, Clone, PartialEq, Default)]
+enum State {
+    #[default]
+    Free,
+    /// A guard stands before the obstacle of an id, still `sunk` (m) below its place.
+    Guarded { obstacle: u32, guard: Guard, sunk: f64 },
+    /// No attraction until a time, s (Remark 6.4.1).
+    Suspended { until: f64 },
+    /// Inside an obstacle's hull, after a `carrot` that goes along the way ahead.
+    Escaping { obstacle: u32, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
+    /// Round teammates ahead, after a `carrot` that goes along the way ahead, until a time at the latest, s.
+    Led { until: f64, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
+}
+
+/// What draws a robot that may be caught.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Drawn {
+    /// A nearest point, which moves along with the robot or not.
+    To(Foot),
+    /// A goal point.
+    Goal(Vector2<f64>),
+}
+
+impl Drawn {
+    pub(super) fn point(self) -> Vector2<f64> {
+        match self {
+            Self::To(foot) => foot.point,
+            Self::Goal(goal) => goal,
+        }
+    }
+}
+
+/// What a remedy asks for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Asked {
+    /// Nothing.
+    Attraction,
+    /// That the attraction be off.
+    Suspension,
+    /// That the robot go to this point.
+    Point(Vector2<f64>),
+}
+
+impl Remedy {
+    /// What it does.
+    pub(super) fn state(&self) -> RemedyState {
+        match &self.state {
+            State::Free => RemedyState::None,
+            State::Guarded { obstacle, .. } => RemedyState::Guarded(*obstacle),
+            State::Suspended { .. } => RemedyState::Suspended,
+            State::Escaping { obstacle, .. } => RemedyState::Escaping(*obstacle),
+            State::Led { .. } => RemedyState::Led,
+        }
+    }
+
+    /// Whether it changes what [`Self::approach`] says of the obstacle of an id.
+    pub(super) fn concerns(&self, id: u32) -> bool {
+        matches!(&self.state, State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. } if *obstacle == id)
+    }
+
+    /// Distance and direction of an apparent obstacle with its guard; of its nearest member while the robot is on its way out.
+    pub(super) fn approach(
+        &self,
+        around: &Surroundings<'_>,
+        since: f64,
+        index: usize,
+        robot: Vector2<f64>,
+    ) -> Approach {
+        let obstacle = &around.apparent[index];
+        let outline = obstacle.shape.outline();
+        let robot = robot - around.displacement(index, since);
+        match &self.state {
+            State::Guarded { obstacle: id, guard, sunk } if *id == obstacle.id => {
+                guard.sunk(*sunk).approach(&outline, robot)
+            }
+            State::Escaping { obstacle: id, .. } if *id == obstacle.id => {
+                let members = around.real.iter().filter(|real| obstacle.members.contains(&real.id));
+                let approaches = members.map(|real| real.shape.outline().approach(robot));
+                approaches.min_by(|a, b| a.gap.total_cmp(&b.gap)).unwrap_or_else(|| outline.approach(robot))
+            }
+            _ => outline.approach(robot),
+        }
+    }
+
+    /// See [`Agent::way_out`](super::Agent::way_out).
+    pub(super) fn way_out(&self, from: Vector2<f64>) -> Vec<Vector2<f64>> {
+        match &self.state {
+            State::Guarded { guard, sunk, .. } => guard.sunk(*sunk).outline().to_vec(),
+            State::Escaping { carrot, way, .. } | State::Led { carrot, way, .. } => {
+                [from, *carrot].into_iter().chain(way.iter().copied()).collect()
+            }
+            State::Free | State::Suspended { .. } => Vec::new(),
+        }
+    }
+
+    /// The robot rests on purpose: what it was watched for begins anew.
+    pub(super) fn pause(&mut self) {
+        self.watch.restart();
+    }
+
+    /// A tick: guards have gone on with their obstacles, and what is gone needs no remedy.
+    pub(super) fn carry_on(&mut self, around: &Surroundings<'_>, elapsed: f64) {
+        let (State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. }) = &self.state else { return };
+        let Some(index) = around.apparent.iter().position(|other| other.id == *obstacle) else {
+            *self = Self::default();
+            return;
+        };
+        if let State::Guarded { guard, .. } = &mut self.state {
+            *guard = guard.moved(around.displacement(index, elapsed));
+        }
+    }
+
+    /// Notices that a robot is caught or enclosed, chooses a remedy, and drops it when it has done its work.
+    pub(super) fn update(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) -> Asked {
+        let target = drawn.point();
+        let mut held = false;
+        match &mut self.state {
+            State::Free => self.choose(sight, robot, drawn),
+            State::Guarded { obstacle, guard, sunk } => {
+                *sunk = (*sunk - sight.remedies.rising * sight.step).max(0.0);
+                let seen = sight.find(*obstacle).map_or(robot, |index| sight.seen_by(index, robot));
+                if !guard.shields(seen) {
+                    *self = Self::default();
+                } else if *sunk > 0.0 {
+                    self.watch.restart();
+                } else {
+                    // Guards have places of rest of their own.
+                    let deviation = (target - robot).norm();
+                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, true);
+                }
+            }
+            State::Suspended { until } if sight.time() >= *until => *self = Self::default(),
+            State::Suspended { .. } => {}
+            State::Escaping { obstacle, carrot, way } => {
+                let cut = sight.potential.cut();
+                if sight.find(*obstacle).is_none_or(|index| sight.approach(index, robot).gap >= cut) {
+                    *self = Self::default();
+                } else {
+                    sight.lead(robot, carrot, way);
+                }
+            }
+            State::Led { until, carrot, way } => {
+                let there = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
+                // Another place was chosen meanwhile, or the segment has gone on.
+                let astray = (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
+                if there || astray || sight.time() >= *until {
+                    *self = Self::default();
+                } else {
+                    sight.lead(robot, carrot, way);
+                }
+            }
+        }
+        if held {
+            self.state = sight.led(robot, target);
+        }
+        match &self.state {
+            State::Free | State::Guarded { .. } => Asked::Attraction,
+            State::Suspended { .. } => Asked::Suspension,
+            State::Escaping { carrot, .. } | State::Led { carrot, .. } => Asked::Point(*carrot),
+        }
+    }
+}

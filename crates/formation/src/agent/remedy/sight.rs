@@ -1,0 +1,90 @@
+//! What remedies look at, and ways that are free.
+use super::State;
+use crate::Vector2;
+use crate::agent::surroundings::Moment;
+use crate::agent::{Remedies, Surroundings};
+use crate::avoidance::way_round;
+use crate::hull::Approach;
+use crate::zoning::{ObstaclePotential, Zone, Zoning};
+
+/// What remedies look at: displacements of obstacles since the tick included.
+#[derive(Clone, Copy)]
+pub(in crate::agent) struct Sight<'a> {
+    pub(in crate::agent) remedies: &'a Remedies,
+    pub(in crate::agent) potential: &'a ObstaclePotential,
+    pub(in crate::agent) zoning: &'a Zoning,
+    pub(in crate::agent) around: &'a Surroundings<'a>,
+    pub(in crate::agent) moment: &'a Moment<'a>,
+    /// Seconds since the last update.
+    pub(in crate::agent) step: f64,
+}
+
+impl Sight<'_> {
+    pub(super) fn time(&self) -> f64 {
+        self.around.time + self.moment.since
+    }
+
+    /// `point` as the apparent obstacle sees it that was at the tick where it is given.
+    pub(super) fn seen_by(&self, index: usize, point: Vector2<f64>) -> Vector2<f64> {
+        point - self.around.displacement(index, self.moment.since)
+    }
+
+    pub(super) fn approach(&self, index: usize, robot: Vector2<f64>) -> Approach {
+        self.around.apparent[index].shape.outline().approach(self.seen_by(index, robot))
+    }
+
+    /// Least distance from the zone 2 of a robot ahead, m; negative within.
+    pub(super) fn teammate_gap(&self, robot: Vector2<f64>) -> f64 {
+        let near = self.teammates().map(|other| (other - robot).norm()).fold(f64::INFINITY, f64::min);
+        near - self.zoning.radii().rho_hat
+    }
+
+    /// Whether the leader's attraction acts: the robot may be held by it, and a guard before an obstacle, which the nearest point moves
+    /// along, is no help.
+    pub(super) fn is_pulled(&self, robot: Vector2<f64>) -> bool {
+        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
+        leader.is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
+    }
+
+    fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
+        let leader = self.around.leader.map(|leader| leader.state);
+        self.around.ahead.iter().copied().chain(leader).map(|robot| robot.coasted(self.moment.since).position)
+    }
+
+    /// Moves a `carrot` along the way ahead of a robot that comes after it.
+    pub(super) fn lead(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut Vec<Vector2<f64>>) {
+        let pace = self.remedies.rising * self.step;
+        if let Some(next) = way.first().copied().filter(|_| (*carrot - robot).norm() < self.potential.cut()) {
+            let ahead = next - *carrot;
+            if ahead.norm() <= pace {
+                way.remove(0);
+            }
+            *carrot += ahead.cap_magnitude(pace);
+        }
+    }
+
+    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles; a rest if there is none.
+    pub(super) fn led(&self, robot: Vector2<f64>, target: Vector2<f64>) -> State {
+        let radii = self.zoning.radii();
+        let (apart, room) = (0.5 * (radii.rho_underbar + radii.rho_hat), self.potential.pole_with_margin());
+        let is_free = |point: Vector2<f64>| {
+            self.teammates().all(|other| (other - point).norm() >= apart)
+                && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
+        };
+        let patience = self.remedies.watch.patience;
+        match way_round(robot, target, (0.25 * apart, 4.0 * radii.rho_hat), is_free) {
+            Some(way) => {
+                let corners = core::iter::once(&robot).chain(&way).zip(&way);
+                let length: f64 = corners.map(|(from, to)| (to - from).norm()).sum();
+                // Twice what the way takes: what is in the way then may be somewhere else.
+                let until = self.time() + patience + 2.0 * length / self.remedies.rising;
+                State::Led { until, carrot: robot, way }
+            }
+            None => State::Suspended { until: self.time() + patience },
+        }
+    }
+
+    pub(super) fn find(&self, id: u32) -> Option<usize> {
+        self.around.apparent.iter().position(|obstacle| obstacle.id == id)
+    }
+}
