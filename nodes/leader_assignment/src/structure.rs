@@ -46,12 +46,14 @@ impl LeaderAssignment {
         self.seats = members::without(&self.held.plan, &self.seats, |robot| team.is_gone(robot));
         let Some(positions) = self.positions(&self.held, at) else { return };
         let positions: BTreeMap<String, Vector2<f64>> = positions.into_iter().collect();
+        let takes_part = |robot: &String| self.members.is_here(at.steady, robot);
+        let size = self.held.robots.iter().filter(|robot| takes_part(robot)).count();
         for robot in &self.held.robots {
             let seated = self.seats.iter().any(|seat| seat.robot == *robot);
             let Some(position) = positions.get(robot).filter(|_| !seated && !self.members.is_gone(robot)) else {
                 continue;
             };
-            if let Some(seats) = members::with(&self.held.plan, &self.seats, (robot, *position), &positions) {
+            if let Some(seats) = members::with(&self.held.plan, &self.seats, (robot, *position), &positions, size) {
                 self.seats = seats;
                 sink.log(Level::Info, &format!("{robot} joins"));
             }

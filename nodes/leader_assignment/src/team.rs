@@ -92,6 +92,11 @@ impl Team {
         self.robots.get(robot).is_some_and(|known| known.presence.is_lost())
     }
 
+    /// Whether nothing is wrong with it now: it takes part, or waits to join.
+    pub(crate) fn is_here(&self, now: Steady, robot: &str) -> bool {
+        self.robots.get(robot).is_none_or(|known| known.complaint(now, self.looked).is_none())
+    }
+
     /// Whether its link to the robot ahead is broken.
     pub(crate) fn is_cut_off(&self, robot: &str) -> bool {
         self.robots.get(robot).is_some_and(|known| known.link.is_lost())
