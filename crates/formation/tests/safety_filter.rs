@@ -7,7 +7,9 @@ use nalgebra::Vector2;
 use safety_bench::{Bed, HALF_AXLE, MARGIN, RADIUS, Random, Robot, random_team};
 use trench_formation::hull::Outline;
 use trench_formation::kinematics::{Pose, Twist};
-use trench_formation::safety::{Constraint, MovingOutline, Neighbour, SafetyFilter, SafetyParameters, Scene, Wish};
+use trench_formation::safety::{
+    Constraint, MovingOutline, Neighbour, SafetyFilter, SafetyParameters, Scene, Side, Wish,
+};
 
 const MIDDLE: Vector2<f64> = Vector2::new(1.24, 0.915);
 
@@ -213,6 +215,22 @@ fn a_way_round_is_driven_at_the_pace_of_the_law() {
     };
     let speeds = [0.0, 0.05, 0.2].map(fastest);
     assert!((speeds[0] - 0.12).abs() < 1e-3 && speeds[1] == speeds[0] && speeds[2] > 0.18, "{speeds:?}");
+}
+
+#[test]
+fn what_crosses_the_way_is_passed_behind_its_back() {
+    let goal = Some(Vector2::new(1.0, 0.0));
+    let side = |y: f64, speed: f64| {
+        let velocity = Vector2::new(0.0, speed);
+        let neighbours = [Neighbour { velocity, ..neighbour(0.5, y) }];
+        let scene = Scene { neighbours: &neighbours, ..Scene::default() };
+        filter().apply(Pose::default(), Twist::ZERO, Wish { goal, ..wish(0.15, 0.0) }, &scene).side
+    };
+    // At rest the shorter way, of ways about equal the right one.
+    assert_eq!([side(0.0, 0.0), side(-0.04, 0.0)], [Some(Side::Right), Some(Side::Left)]);
+    // Crossing to the left and to the right.
+    assert_eq!([side(0.0, 0.15), side(-0.04, 0.15)], [Some(Side::Right); 2]);
+    assert_eq!([side(0.0, -0.15), side(0.04, -0.15)], [Some(Side::Left); 2]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! What blocks the straight way is taken together with all that is too near to it to pass between (the combined hull
 //! of 7.4, seen from the robot's centre), and the robot heads for the tangent to this cluster on the side of the shorter
 //! way. Ties and near ties go to the right, for all robots alike: two that meet head-on see each other point-symmetrically,
-//! so both keep right, and so do four that meet at one point. Without a side to keep to, only positions decide, so there is nothing to forget.
+//! so both keep right, and so do four that meet at one point. What crosses the way is passed behind its back. Without a side to keep to, only positions decide, so there is nothing to forget.
 use super::SafetyParameters;
 use super::scene::{Constraint, Scene};
 use crate::hull::Outline;
@@ -66,6 +66,8 @@ pub(super) struct View<'a> {
     pub(super) goal: Vector2<f64>,
     /// The side that the robot took last.
     pub(super) kept: Option<Side>,
+    /// How fast it goes round, m/s.
+    pub(super) pace: f64,
 }
 
 impl View<'_> {
@@ -79,8 +81,9 @@ impl View<'_> {
             Some(Side::Right) => KEPT_BIAS,
             Some(Side::Left) => -KEPT_BIAS,
         };
+        let drift = self.drift(first);
         let left_is_shorter = |right: Extent, left: Extent| {
-            self.way_length(&left, Side::Left) + bias < self.way_length(&right, Side::Right)
+            self.way_length(&left, Side::Left) + drift + bias < self.way_length(&right, Side::Right)
         };
         let (target, side) = match (right, left) {
             (Some(right), Some(left)) if left_is_shorter(right, left) => (left.point, Side::Left),
@@ -90,6 +93,20 @@ impl View<'_> {
         };
         let direction = self.along_barriers((target - self.centre).try_normalize(0.0)?);
         Some(Detour { direction, blocker: self.constraint(first), side })
+    }
+
+    /// How far to the left (m) of the straight way an item is carried by its motion while the robot comes to it: the way
+    /// before its front becomes longer and the one behind its back shorter, together by that much at least. So what crosses
+    /// is passed behind its back, and nobody is led along by a robot whose front it tries to pass.
+    fn drift(&self, item: usize) -> f64 {
+        let velocity = match self.constraint(item) {
+            Constraint::Neighbour(index) => self.scene.neighbours[index].velocity,
+            Constraint::Obstacle(index) => self.scene.obstacles[index].velocity,
+            Constraint::Edge(_) | Constraint::NotFinite => Vector2::zeros(),
+        };
+        let away = self.outline(item).approach(self.centre).gap.clamp(0.0, LOOK_AHEAD);
+        let ahead = (self.goal - self.centre).try_normalize(0.0).unwrap_or_default();
+        ahead.perp(&velocity) * away / self.pace
     }
 
     /// Turns `direction` along what the robot all but touches, which would stop it otherwise.

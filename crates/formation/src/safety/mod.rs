@@ -72,7 +72,8 @@ impl SafetyFilter {
             return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite), side: None };
         }
         let detour = wish.goal.and_then(|goal| {
-            detour::View { scene, parameters: &self.parameters, centre: pose.position(), goal, kept: wish.kept }
+            let (centre, pace) = (pose.position(), self.pace(wish));
+            detour::View { scene, parameters: &self.parameters, centre, goal, kept: wish.kept, pace }
                 .with_goal_uncovered()
                 .detour()
         });
@@ -84,11 +85,15 @@ impl SafetyFilter {
         Filtered { twist, acted: decisive.or(blocker), side }
     }
 
+    /// Speed on a way round, m/s.
+    fn pace(&self, wish: Wish) -> f64 {
+        wish.twist.v.abs().max(wish.pace).max(self.parameters.detour_speed)
+    }
+
     /// Twist that turns the robot towards `direction`, at speed only once it faces there.
     fn steer(&self, pose: Pose, wish: Wish, direction: Vector2<f64>) -> Twist {
         let error = wrap(libm::atan2(direction.y, direction.x) - pose.theta);
         let facing = libm::cos(error).max(0.0);
-        let speed = wish.twist.v.abs().max(wish.pace).max(self.parameters.detour_speed);
-        Twist { v: speed * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
+        Twist { v: self.pace(wish) * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
     }
 }
