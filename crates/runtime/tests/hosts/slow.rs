@@ -56,7 +56,7 @@ fn slow_down_the_interface(pair: &Pair) {
 
 /// The slow link is beyond the host, and knows no urgency: images keep to their rate, piece by piece.
 #[test]
-fn over_dds_images_leave_room_on_a_link_that_knows_no_urgency() {
+fn live_over_dds_images_leave_room_on_a_link_that_knows_no_urgency() {
     let Some(pair) = Pair::on_a_bridge(44) else { return };
     slow_down_the_way(&pair);
     commands_are_young_beside_images(&pair, "100000.0");
@@ -64,7 +64,7 @@ fn over_dds_images_leave_room_on_a_link_that_knows_no_urgency() {
 
 /// The slow link is the host's own, as Wi-Fi often is: its queue lets commands pass, and images take what is left.
 #[test]
-fn over_dds_images_let_commands_pass_at_the_host_s_own_interface() {
+fn live_over_dds_images_let_commands_pass_at_the_host_s_own_interface() {
     let Some(pair) = Pair::on_a_bridge(45) else { return };
     slow_down_the_interface(&pair);
     commands_are_young_beside_images(&pair, "400000000.0");
@@ -72,7 +72,7 @@ fn over_dds_images_let_commands_pass_at_the_host_s_own_interface() {
 
 /// Between the routers of two hosts all goes through one connection.
 #[test]
-fn over_zenoh_images_let_commands_pass_between_routers() {
+fn live_over_zenoh_images_let_commands_pass_between_routers() {
     let Some(pair) = Pair::with_routers(46, SLOW) else { return };
     slow_down_the_way(&pair);
     commands_are_young_beside_images(&pair, "100000.0");
