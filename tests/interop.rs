@@ -250,6 +250,39 @@ fn interop_an_ordinary_camera_driver_loses_one_frame_of_a_hundred_at_most() {
     }
 }
 
+/// Frames that rclpy asks for go to it in pieces of our own making (docs/decisions/0012): Fast DDS puts them together again.
+#[test]
+fn interop_a_viewer_gets_the_camera_s_pictures_whole() {
+    const COUNT: usize = 40;
+    let island = Island::new(2);
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = [noise(768, 576), image::RgbImage::from_pixel(768, 576, image::Rgb([9, 90, 200]))];
+    for (index, picture) in pictures.iter().enumerate() {
+        picture.save(folder.path().join(format!("frame{index}.png"))).unwrap();
+    }
+    let lens = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("config/cameras/overhead.yaml");
+    let mut camera = island
+        .command(&std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_camera"))
+        .args(["--ros-args", "-p", "source:=folder", "-p", "repeat:=true", "-p", "rate:=20.0"])
+        .args(["-p", &format!("path:={}", folder.path().display())])
+        .args(["-p", &format!("camera_info_file:={}", lens.display())])
+        .args(["-p", "publish_over_network:=[\"/overhead/image_raw\"]"])
+        .spawn()
+        .unwrap();
+    let seen = island.ask("peer_viewer.py", &format!("/overhead/image_raw --count {COUNT}"));
+    camera.kill().unwrap();
+    camera.wait().unwrap();
+    let expected = pictures.map(|picture| u64::from(crc32fast::hash(picture.as_raw())));
+    let mut counts = [0; 2];
+    for picture in seen["pictures"].as_array().unwrap() {
+        assert_eq!((&picture["encoding"], &picture["sides"]), (&"rgb8".into(), &serde_json::json!([768, 576, 2304])));
+        let which = expected.iter().position(|crc| picture["crc32"] == *crc);
+        counts[which.unwrap_or_else(|| panic!("a picture that nobody sent: {picture}"))] += 1;
+    }
+    println!("{counts:?} pictures, {} a second of 20", seen["rate"]);
+    assert!(counts.iter().all(|count| 3 * count > COUNT), "{counts:?}: as they take turns");
+}
+
 #[test]
 fn interop_rclpy_operates_and_stops_the_robots() {
     let island = Island::new(3);
