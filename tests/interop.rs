@@ -262,7 +262,7 @@ fn interop_a_viewer_gets_the_camera_s_pictures_whole() {
     }
     let lens = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("config/cameras/overhead.yaml");
     let mut camera = island
-        .command(&std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_camera"))
+        .command(std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_camera"))
         .args(["--ros-args", "-p", "source:=folder", "-p", "repeat:=true", "-p", "rate:=20.0"])
         .args(["-p", &format!("path:={}", folder.path().display())])
         .args(["-p", &format!("camera_info_file:={}", lens.display())])
