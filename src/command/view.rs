@@ -22,7 +22,7 @@ const FILES: &[&[page::File]] = &[page::SHARED, page::FIELD];
 
 /// Shows the field in a browser: robots, trails, the formation, obstacles, alarms; live, or from a bag.
 ///
-/// Serves one page on this host alone and prints its address. Live, it is a node that listens and says nothing.
+/// Serves one page on this host alone and prints its address. Live, it is a node that listens and, without --markers, says nothing.
 #[derive(Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -43,6 +43,9 @@ pub(crate) struct Arguments {
     /// Radii of the zones to draw around each robot, m.
     #[arg(long, value_name = "METRES", value_delimiter = ',')]
     zones: Vec<f64>,
+    /// Publishes what the page alone draws (trails, links, V and its bound, alarms) on /markers, for RViz2 and Foxglove.
+    #[arg(long, conflicts_with = "bag")]
+    markers: bool,
     /// Further arguments of the node, for example `--ros-args -p use_sim_time:=true`.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     node_arguments: Vec<String>,
@@ -81,7 +84,13 @@ fn show(arguments: &Arguments) -> Result<u8, ViewError> {
         let hub = Arc::new(Hub::new(setup));
         server.announce(COMMAND, OPEN);
         server.serve_beside(COMMAND, FILES, router(Picture::Live(Arc::clone(&hub))))?;
-        return Ok(node::run(hub, &arguments.robots, arguments.ground_truth, &arguments.node_arguments));
+        return Ok(node::run(
+            hub,
+            &arguments.robots,
+            arguments.ground_truth,
+            arguments.markers,
+            &arguments.node_arguments,
+        ));
     };
     let bag = BagReader::open(path)?;
     for damage in bag.damage() {

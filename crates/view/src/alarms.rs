@@ -28,9 +28,9 @@ struct Known {
 /// One line of the list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Alarm<'a> {
-    level: &'static str,
-    name: &'a str,
-    message: &'a str,
+    pub(crate) level: &'static str,
+    pub(crate) name: &'a str,
+    pub(crate) message: &'a str,
 }
 
 impl Alarms {

@@ -57,9 +57,9 @@ pub(crate) struct Monitor {
     pub(crate) bound: Option<f64>,
     /// The input that brings in most.
     term: String,
-    holds: bool,
+    pub(crate) holds: bool,
     /// Empty while it holds.
-    violation: String,
+    pub(crate) violation: String,
 }
 
 impl Monitor {

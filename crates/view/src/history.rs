@@ -17,7 +17,7 @@ type Value = (f64, Option<f64>, Option<f64>);
 /// Trail and Lyapunov values of every robot.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct History {
-    trails: BTreeMap<String, VecDeque<Place>>,
+    pub(crate) trails: BTreeMap<String, VecDeque<Place>>,
     values: BTreeMap<String, VecDeque<Value>>,
 }
 

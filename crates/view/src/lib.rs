@@ -5,6 +5,7 @@
 //! | which topics there are, and what they are to the picture | [`Role`] |
 //! | the state of the picture, message by message | [`View`] |
 //! | what changed since a browser last asked, as JSON | [`Snapshot`], [`Seen`] |
+//! | what of it goes out as markers | `shown` |
 //! | the last minute, for browsers that come late and for jumps in a bag | `history` |
 //! | a bag in memory, and one browser's way through it | [`Recording`], [`Player`] |
 //! | what the page of colours asks for | [`colours`] |
@@ -23,6 +24,7 @@ pub mod page;
 mod player;
 mod recording;
 mod role;
+mod shown;
 mod snapshot;
 mod team;
 mod view;

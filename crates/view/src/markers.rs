@@ -7,7 +7,7 @@ use trench_core::RosTime;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
 /// What the picture draws from its own topic: namespaces, or all that begin like this.
-const DRAWN_ELSEWHERE: [&str; 3] = ["robots/", "formation/", "apparent_obstacles"];
+const DRAWN_ELSEWHERE: [&str; 4] = ["robots/", "formation/", "apparent_obstacles", crate::shown::NAMESPACE];
 /// The marker that tells how large a robot is.
 const BODY: &str = "robots/body";
 /// Markers that are remembered at most, and points of one.

@@ -72,7 +72,7 @@ impl Posed {
 /// The command link to one robot.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(crate) struct Link {
-    up: bool,
+    pub(crate) up: bool,
     /// 0 to 1.
     loss: Option<f64>,
     /// dBm.
@@ -83,6 +83,9 @@ pub(crate) struct Link {
     faults: Vec<&'static str>,
 }
 
+/// Loss above this part is told.
+const WEAK: f64 = 0.2;
+
 const FAULTS: [(u8, &str); 4] = [
     (LinkStatus::FAULT_COMMAND_TIMEOUT, "no commands"),
     (LinkStatus::FAULT_EMERGENCY_STOP, "emergency stop"),
@@ -91,6 +94,11 @@ const FAULTS: [(u8, &str); 4] = [
 ];
 
 impl Link {
+    /// Up, but something is the matter: as the page judges it.
+    pub(crate) fn is_weak(&self) -> bool {
+        self.loss.is_some_and(|loss| loss > WEAK) || !self.faults.is_empty()
+    }
+
     pub(crate) fn of(link: &LinkStatus) -> Self {
         let faults = FAULTS.iter().filter(|(bit, _)| link.fault & bit != 0).map(|(_, name)| *name).collect();
         Self {

@@ -6,6 +6,7 @@ use crate::formation::{Formation, Goals, Place, Run, places};
 use crate::history::History;
 use crate::markers::Markers;
 use crate::obstacles::Outline;
+use crate::shown::Shown;
 use crate::team::{Link, Posed, Team};
 use crate::{Role, Snapshot, seconds};
 use serde::Serialize;
@@ -178,6 +179,15 @@ impl View {
         self.put("now", text(&seconds(self.now)));
         self.snapshot.history = with_history.then(|| text(&self.history).into());
         self.snapshot.clone()
+    }
+
+    /// What the page draws and no other node's markers say: trails, links, Lyapunov values with their bounds, alarms. In the
+    /// namespaces `view/..` of the frame `map`.
+    #[must_use]
+    pub fn markers(&self) -> MarkerArray {
+        let alarms = self.alarms.list(self.now);
+        let Self { now, team, history, links, stability, .. } = self;
+        Shown { now: *now, team, history, links, stability, alarms }.markers()
     }
 
     /// Sets a part that comes from no topic: what kind of picture this is, where the player stands.

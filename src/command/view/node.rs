@@ -3,13 +3,21 @@
 use super::hub::Hub;
 use std::sync::{Arc, OnceLock};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
-use trench_core::{Event, Files, Interface, NodeContext, NodeCore, NodeDescription, Sink, StartError, Steady, Times};
+use trench_core::{
+    Advertise, Event, Files, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Sink, StartError, Steady,
+    Times,
+};
+use trench_msgs::visualization_msgs::MarkerArray;
 use trench_view::{Role, subscriptions};
 
 /// The shortest time between two pictures, s.
 const PERIOD: f64 = 0.04;
 /// How often it looks whether somebody has come, s.
 const LOOK: f64 = 0.2;
+/// How often it tells of the picture on /markers, s.
+const MARKERS_PERIOD: f64 = 1.0;
+/// The publication of markers, where there is one.
+const MARKERS: usize = 0;
 /// The exit code that means: there are robots that are not listened to yet.
 const REJOIN: u8 = 99;
 /// Robots that are listened to at most.
@@ -20,7 +28,7 @@ static HUB: OnceLock<Arc<Hub>> = OnceLock::new();
 
 /// Runs the node until a signal ends it; gives the exit code. Where no robots are named it joins again when the team
 /// has new ones, and keeps its picture.
-pub(super) fn run(hub: Arc<Hub>, robots: &[String], ground_truth: bool, further: &[String]) -> u8 {
+pub(super) fn run(hub: Arc<Hub>, robots: &[String], ground_truth: bool, markers: bool, further: &[String]) -> u8 {
     let hub = HUB.get_or_init(|| hub);
     hub.robots().extend(robots.iter().cloned());
     loop {
@@ -33,6 +41,8 @@ pub(super) fn run(hub: Arc<Hub>, robots: &[String], ground_truth: bool, further:
             format!("ground_truth:={ground_truth}"),
             "-p".to_owned(),
             format!("follow_team:={}", robots.is_empty()),
+            "-p".to_owned(),
+            format!("markers:={markers}"),
             "--".to_owned(),
         ];
         let arguments = own.into_iter().chain(further.iter().cloned());
@@ -55,6 +65,8 @@ fn parameters() -> Vec<ParameterDescriptor> {
             .read_only(),
         ParameterDescriptor::bool("ground_truth", false, "whether to show the simulated bed's ground truth")
             .read_only(),
+        ParameterDescriptor::bool("markers", false, "whether to publish what the page alone draws on /markers")
+            .read_only(),
     ]
 }
 
@@ -62,12 +74,15 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     let hub = HUB.get().ok_or_else(|| parameters.error("robots", "has no page to show", "start trench view"))?;
     let topics = subscriptions(parameters.str_list("robots")?, parameters.bool("ground_truth")?);
     let (roles, subscriptions) = topics.into_iter().unzip();
+    let markers = Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly);
+    let publications = if parameters.bool("markers")? { vec![markers] } else { Vec::new() };
     Ok(Box::new(Viewer {
         hub,
-        interface: Interface { subscriptions, ..Interface::default() },
+        interface: Interface { publications, subscriptions, ..Interface::default() },
         roles,
         follows_team: parameters.bool("follow_team")?,
         next: Steady::default(),
+        marked: None,
     }))
 }
 
@@ -77,6 +92,8 @@ struct Viewer {
     roles: Vec<Role>,
     follows_team: bool,
     next: Steady,
+    /// When markers were published.
+    marked: Option<Steady>,
 }
 
 impl NodeCore for Viewer {
@@ -96,6 +113,7 @@ impl NodeCore for Viewer {
             Event::Wakeup => {
                 let is_watched = self.hub.is_watched();
                 self.next = at.steady.plus_seconds(if is_watched { PERIOD } else { LOOK });
+                self.mark(at, sink);
                 if is_watched {
                     self.hub.view().advance(at.ros);
                     self.hub.publish();
@@ -115,6 +133,15 @@ impl NodeCore for Viewer {
 }
 
 impl Viewer {
+    /// Publishes the picture's own markers, if it is time.
+    fn mark(&mut self, at: Times, sink: &mut dyn Sink) {
+        let is_due = self.marked.is_none_or(|last| at.steady.seconds_since(last) >= MARKERS_PERIOD);
+        if is_due && !self.interface.publications.is_empty() {
+            self.marked = Some(at.steady);
+            sink.publish(MARKERS, &self.hub.view().markers());
+        }
+    }
+
     /// Whether the team has robots that are not listened to yet.
     fn meets(&self) -> bool {
         let (view, mut robots) = (self.hub.view(), self.hub.robots());
