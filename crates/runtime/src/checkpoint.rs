@@ -4,6 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
+/// Files in memory, on Linux. On a disk a file that is replaced may hold up the event loop for a tenth of a second.
+const MEMORY: &str = "/dev/shm";
+
 /// Where a node keeps its checkpoint. Files survive the process, not necessarily the machine: a restart after a crash is
 /// what they are for, so nothing is flushed to the disk.
 #[derive(Debug, Clone)]
@@ -12,8 +15,8 @@ pub(crate) struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// For the node with this full name: in `$TRENCH_STATE_DIR`, else in `$XDG_RUNTIME_DIR/trench/<domain>`, else in the
-    /// folder for temporary files.
+    /// For the node with this full name: in `$TRENCH_STATE_DIR`, else in `$XDG_RUNTIME_DIR/trench/<domain>`, else in a folder
+    /// of the user's in memory ([`MEMORY`]), or where there is none, with the temporary files.
     pub(crate) fn of(node: &str, domain: u16) -> Self {
         let folder = state_folder(domain, |name| env::var_os(name));
         Self::inside(&folder, node)
@@ -57,10 +60,11 @@ fn state_folder(domain: u16, variable: impl Fn(&str) -> Option<OsString>) -> Pat
     match (variable("TRENCH_STATE_DIR"), variable("XDG_RUNTIME_DIR")) {
         (Some(folder), _) => PathBuf::from(folder),
         (None, Some(runtime)) => Path::new(&runtime).join("trench").join(domain.to_string()),
-        // Without a runtime folder (a container, a daemon): one folder a user, since /tmp is everybody's.
+        // Without a runtime folder (a container, a daemon): one folder a user, since these are everybody's.
         (None, None) => {
             let user = rustix::process::getuid().as_raw();
-            env::temp_dir().join(format!("trench-{user}")).join(domain.to_string())
+            let folder = if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() };
+            folder.join(format!("trench-{user}")).join(domain.to_string())
         }
     }
 }
@@ -90,5 +94,8 @@ mod tests {
         };
         check(&[("TRENCH_STATE_DIR", "/a"), ("XDG_RUNTIME_DIR", "/b")], "/a");
         check(&[("XDG_RUNTIME_DIR", "/b")], "/b/trench/7");
+        let memory = if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() };
+        let own = memory.join(format!("trench-{}", rustix::process::getuid().as_raw())).join("7");
+        check(&[], own.to_str().unwrap());
     }
 }

@@ -15,7 +15,7 @@ ROS arguments (repeatable, ended by --):
 
 Environment:
   ROS_DOMAIN_ID            the ROS domain, 0 to 232 (default 0)
-  TRENCH_STATE_DIR         where checkpoints are kept (default $XDG_RUNTIME_DIR/trench/<domain>)
+  TRENCH_STATE_DIR         where checkpoints are kept (default $XDG_RUNTIME_DIR/trench/<domain>, else in /dev/shm)
   TRENCH_SHM_PREFIX        separates shared memory of test runs on one host
 
 Exit codes:
