@@ -142,6 +142,7 @@ mod tests {
             assert_eq!(place(&again), place(&seats), "{robot} gets its own place back");
         }
     }
+
     #[test]
     fn who_come_back_together_or_one_after_another_get_their_places_back() {
         let plan = plan("square");

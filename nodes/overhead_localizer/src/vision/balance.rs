@@ -5,7 +5,6 @@
 //! that lamps and daylight have, and followed slowly: a hand before the camera is no sunset.
 
 use super::frame::{ChannelOrder, Frame};
-use super::looks::call_for;
 
 /// Weights of red and blue that make grey grey; green's is [`UNIT`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +112,7 @@ fn estimate<const RED_BYTE: usize>(frame: Frame<'_>) -> Option<[f64; 2]> {
     let (mut reds, mut blues) = ([0_u32; BINS], [0_u32; BINS]);
     let (mut all, mut usable) = (0_u32, 0_u32);
     for v in (STRIDE[0] / 2..frame.height).step_by(STRIDE[0]) {
-        call_for(frame, 0..frame.width, v + STRIDE[0]..v + STRIDE[0] + 1);
+        frame.call_for(0..frame.width, v + STRIDE[0]..v + STRIDE[0] + 1);
         for pixel in frame.row(v).chunks_exact(3 * STRIDE[1]) {
             all += 1;
             let (red, green, blue) = (pixel[RED_BYTE], pixel[1], pixel[2 - RED_BYTE]);

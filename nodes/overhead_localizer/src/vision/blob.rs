@@ -62,9 +62,15 @@ impl<const RED: usize> Tracer<'_, RED> {
     /// Chroma in the direction of the colour; as good as none outside the image.
     #[inline]
     pub(super) fn chroma(&self, u: usize, v: usize) -> i32 {
-        match self.pixel(u, v) {
-            Some(pixel) => self.colour.sign() * chroma::<RED>(pixel, self.weights),
-            None => i32::MIN / 16,
+        self.chroma_of(self.frame.row(v).get(3 * u..3 * u + 3))
+    }
+
+    /// [`Self::chroma`] of a pixel's bytes; none outside the image.
+    #[inline]
+    fn chroma_of(&self, pixel: Option<&[u8]>) -> i32 {
+        match pixel {
+            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c], self.weights),
+            _ => i32::MIN / 16,
         }
     }
 
@@ -79,20 +85,11 @@ impl<const RED: usize> Tracer<'_, RED> {
 
     fn run_in_row(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
         let row = self.frame.row(v);
-        self.run(u, |u| self.has(row.get(3 * u..3 * u + 3), least))
+        self.run(u, |u| self.chroma_of(row.get(3 * u..3 * u + 3)) >= least)
     }
 
     fn run_in_column(&self, u: usize, v: usize, least: i32) -> Option<[usize; 2]> {
-        self.run(v, |v| self.has(self.frame.row(v).get(3 * u..3 * u + 3), least))
-    }
-
-    /// Whether a pixel is in the image and has at least so much chroma.
-    #[inline]
-    fn has(&self, pixel: Option<&[u8]>, least: i32) -> bool {
-        match pixel {
-            Some(&[a, b, c]) => self.colour.sign() * chroma::<RED>([a, b, c], self.weights) >= least,
-            _ => false,
-        }
+        self.run(v, |v| self.chroma(u, v) >= least)
     }
 
     /// The longest interval around `start` on which `inside` holds; None if longer than a disc.

@@ -3,7 +3,6 @@
 use super::balance::Weights;
 use super::chroma::{Classifier, Colour};
 use super::frame::Frame;
-use std::ops::Range;
 
 /// A pixel of the grid that has a colour.
 #[derive(Debug, Clone, Copy)]
@@ -29,13 +28,13 @@ pub(super) fn looks<const RED: usize>(
     let mut row_before = 0;
     for v in (stride / 2..frame.height).step_by(stride) {
         let this_row = looks.len();
-        call_for(frame, 0..frame.width, v + stride..v + stride + 1);
+        frame.call_for(0..frame.width, v + stride..v + stride + 1);
         for (index, look) in frame.row(v).chunks_exact(3 * stride).enumerate() {
             if let Some(colour) = classifier.classify::<RED>([look[0], look[1], look[2]], weights) {
                 let u = index * stride;
                 if !looks[row_before..].iter().rev().any(|other| other.u.abs_diff(u) <= stride) {
                     let columns = u.saturating_sub(reach[0])..u + reach[0];
-                    call_for(frame, columns, v.saturating_sub(stride)..v + reach[1]);
+                    frame.call_for(columns, v.saturating_sub(stride)..v + reach[1]);
                 }
                 looks.push(Look { colour, u, v });
             }
@@ -44,24 +43,3 @@ pub(super) fn looks<const RED: usize>(
     }
     looks
 }
-
-/// Lets the pixels of a box come nearer to the processor, without waiting for them.
-pub(super) fn call_for(frame: Frame<'_>, columns: Range<usize>, rows: Range<usize>) {
-    /// Bytes that memory gives at once.
-    const LINE: usize = 64;
-    for v in rows {
-        let row = frame.row(v);
-        let pixels = row.get(3 * columns.start..(3 * columns.end + LINE).min(row.len())).unwrap_or_default();
-        pixels.iter().step_by(LINE).for_each(prefetch);
-    }
-}
-
-/// Into the second cache: the first is smaller than what is called for.
-#[cfg(target_arch = "x86_64")]
-fn prefetch(byte: &u8) {
-    safe_arch::prefetch_t1(byte);
-}
-
-/// Elsewhere pixels come when they are read.
-#[cfg(not(target_arch = "x86_64"))]
-fn prefetch(_: &u8) {}
