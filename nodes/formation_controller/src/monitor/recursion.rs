@@ -55,6 +55,77 @@ impl Recursion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trench_config::params::{Source, resolve};
+    use trench_formation::agent::Agent;
+    use trench_formation::curve::{Curve, CurveShape};
+    use trench_formation::hull::{Obstacle, Shape, combine};
+    use trench_formation::laws::{GoalMotion, RigidMotion};
+
+    /// The queue law with K = (4, 2): from rest |e| grows at first, so that the first bound is the least for a while.
+    fn settings() -> DynamicSettings {
+        let values = [
+            ("law", "queue"),
+            ("queue.position_gain", "4.0"),
+            ("queue.velocity_gain", "2.0"),
+            ("motion.speed", "9.0"),
+            ("motion.acceleration", "90.0"),
+        ];
+        let sources = values.map(|(name, value)| Source::Override { node: None, name, value });
+        let parameters = resolve(&sources, "/robot1", "controller", &(crate::description().parameters)()).unwrap();
+        DynamicSettings::read(&parameters).unwrap().unwrap()
+    }
+
+    /// A robot at the origin, at rest, whose goal point is 1 m ahead of it: per tick the bound, a |e|, and whether obstacles pushed at its
+    /// beginning and later. A corner lies `beside` metres off its way, a third of it on.
+    fn ticks(beside: f64) -> Vec<(f64, f64, [bool; 2])> {
+        let settings = settings();
+        let overshoot = settings.growth.unwrap().overshoot;
+        let curve =
+            Curve::new(&CurveShape::Line(Vector2::new(-9.0, 0.0), Vector2::new(9.0, 0.0)), false, false).unwrap();
+        let corners = [[0.35, beside], [0.45, beside + 0.1], [0.25, beside + 0.1]].map(Vector2::from);
+        let real = [Obstacle { id: 1, shape: Shape::new(&corners, 0.0).unwrap() }];
+        let apparent = combine(&real, 0.1).unwrap();
+        let (mut agent, mut recursion) = (Agent::new(settings.agent.clone()), Recursion::default());
+        let mut robot = PointState { position: Vector2::zeros(), velocity: Vector2::zeros() };
+        let period = 1.0 / 30.0;
+        (0..30)
+            .map(|tick| {
+                let around = Surroundings {
+                    time: f64::from(tick) * period,
+                    curve: &curve,
+                    map_from_segment: nalgebra::Isometry2::identity(),
+                    motion: RigidMotion::at_rest(),
+                    goal: Some(GoalMotion::at_rest(Vector2::x())),
+                    leader: None,
+                    ahead: &[],
+                    places: &[],
+                    behind: 0,
+                    real: &real,
+                    apparent: &apparent,
+                    velocities: &[],
+                    clear: 0.0,
+                };
+                agent.sense(&around).unwrap();
+                let driven = agent.drive(&around, robot, period, 1e-3);
+                let (error, bound) = recursion.observe(&settings, &around, robot, None, &driven).unwrap();
+                robot = driven.end;
+                let first = driven.first.forces.obstacles != Vector2::zeros();
+                (bound, overshoot * error, [first, driven.pushed])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn no_bound_outlasts_a_push_that_sets_in_between_two_ticks() {
+        let free = ticks(9.0);
+        assert!(free.iter().all(|(bound, _, pushed)| *bound <= free[0].0 && *pushed == [false; 2]), "{free:?}");
+        // The cut, 0.26 m from the corner, is crossed in the course of a tick.
+        let pushed = ticks(0.2);
+        let begins = pushed.iter().position(|(.., pushed)| *pushed == [false, true]).unwrap();
+        let ((promised, grown, _), (bound, error, _)) = (pushed[begins], pushed[begins + 1]);
+        assert!(promised == free[0].0 && grown > promised, "kept so far: {pushed:?}");
+        assert!(bound == error && error > promised, "anew after the push: {pushed:?}");
+    }
 
     #[test]
     fn it_falls_with_the_errors_and_rises_only_with_the_bound_ahead() {
