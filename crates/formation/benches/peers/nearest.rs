@@ -33,7 +33,8 @@ pub(crate) fn measure(output: &mut Output) -> Result<(), Box<dyn Error>> {
         for (kind, shape) in
             [("polyline", CurveShape::Polyline(corners.clone())), ("spline", CurveShape::Spline(corners))]
         {
-            let curve = Curve::new(&shape, false, false)?;
+            let build = || Curve::new(&shape, false, false);
+            let curve = output.time(&format!("curve: {kind} of {pieces}, built"), 5, 1, build)?;
             let name = format!("nearest: {kind} of {pieces}, anywhere");
             let all = |points: &[Vector2<f64>]| points.iter().map(|point| curve.nearest(*point)).collect::<Vec<_>>();
             let feet = output.time(&name, 15, QUERIES, || all(&queries));

@@ -2,6 +2,7 @@
 use super::{
     Curve,
     box_tree::BoxTree,
+    candidates::Candidates,
     error::CurveError,
     graph,
     piece::{Piece, cut},
@@ -36,8 +37,10 @@ impl Curve {
         }
         let tree = BoxTree::new(&pieces);
         let stamp = stamp(&pieces);
-        let mut curve = Self { primitives, pieces, tree, stamp, length, closed, open_start, open_end };
+        let candidates = Candidates::default();
+        let mut curve = Self { primitives, pieces, tree, candidates, stamp, length, closed, open_start, open_end };
         simple::check(&curve)?;
+        curve.candidates = Candidates::new(&curve.pieces, length);
         for index in 0..curve.pieces.len() {
             let shielded = curve.shielded(index);
             if let Some(bend) = &mut curve.pieces[index].bend {

@@ -6,6 +6,7 @@ mod arc_table;
 mod bend;
 mod box_tree;
 mod build;
+mod candidates;
 mod directed;
 mod encroachment;
 mod error;
@@ -55,6 +56,7 @@ pub struct Curve {
     primitives: Vec<primitive::Primitive>,
     pieces: Vec<piece::Piece>,
     tree: box_tree::BoxTree,
+    candidates: candidates::Candidates,
     /// Tells this curve from others, for what was learnt of it before.
     stamp: u64,
     length: f64,

@@ -1,4 +1,5 @@
 //! Nearest points of a curve, (7.1) and (7.2): certified, with multiplicity.
+use super::candidates::MOST;
 use super::minimum::{Least, Minimum, interior_minima, only_minimum, solve};
 use super::primitive::Jet;
 use super::{Curve, Foot};
@@ -46,13 +47,43 @@ impl Curve {
 
     /// The best of all pieces.
     pub(super) fn best(&self, point: Vector2<f64>) -> Best {
+        match self.candidates.near(point) {
+            Some(candidates) => self.best_among(point, candidates),
+            None => self.best_by_boxes(point),
+        }
+    }
+
+    /// [`Self::best`] by the tree of boxes.
+    fn best_by_boxes(&self, point: Vector2<f64>) -> Best {
         let mut best = self.none_yet();
         self.tree.visit_near(point, best.distance, |index| self.improve(point, index, &mut best));
         best
     }
 
+    /// The best of some pieces: first that of the nearest chord, then those whose chords are no farther than they may lie off.
+    #[inline]
+    fn best_among(&self, point: Vector2<f64>, candidates: &[u32]) -> Best {
+        let mut squares = [0.0; MOST];
+        let (mut first, mut least) = (0, f64::INFINITY);
+        for (square, index) in squares.iter_mut().zip(candidates) {
+            *square = self.pieces[*index as usize].chord_distance_squared(point);
+            (first, least) = if *square < least { (*index, *square) } else { (first, least) };
+        }
+        let mut best = self.none_yet();
+        self.look_at(point, first as usize, &mut best);
+        for (square, index) in squares.iter().zip(candidates) {
+            if *index != first && !self.is_farther(*index as usize, *square, &best) {
+                self.look_at(point, *index as usize, &mut best);
+            }
+        }
+        best
+    }
+
     /// The best of all pieces, quickest if the piece `first` is near it.
     pub(super) fn best_from(&self, point: Vector2<f64>, first: usize) -> Best {
+        if let Some(candidates) = self.candidates.near(point) {
+            return self.best_among(point, candidates);
+        }
         let mut best = self.none_yet();
         let reach = self.improve(point, first, &mut best);
         self.tree.visit_near(point, reach, |index| match index == first {
@@ -76,13 +107,17 @@ impl Curve {
     /// Takes what a piece has that is nearer than `best`; the distance from then on.
     #[inline]
     pub(super) fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Best) -> f64 {
-        let piece = &self.pieces[index];
-        let far = best.distance + piece.sagitta;
-        if piece.chord_distance_squared(point) > far * far * (1.0 + CHORD) + CHORD * self.length {
-            return best.distance;
+        if !self.is_farther(index, self.pieces[index].chord_distance_squared(point), best) {
+            self.look_at(point, index, best);
         }
-        self.look_at(point, index, best);
         best.distance
+    }
+
+    /// Whether a piece whose chord is so far (the square of it, m^2) has nothing as near as `best`.
+    #[inline]
+    fn is_farther(&self, index: usize, square: f64, best: &Best) -> bool {
+        let far = best.distance + self.pieces[index].sagitta;
+        square > far * far * (1.0 + CHORD) + CHORD * self.length
     }
 
     /// [`Self::improve`] for a piece that is likely to be nearer.
@@ -311,4 +346,41 @@ fn join_ranges(ranges: &mut Vec<(f64, f64)>) {
         }
         touches
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::CurveShape;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What the squares of the grid are told misses nothing: near the curve and far, by chords and by bends, at joints and between them.
+        #[test]
+        fn candidates_hold_the_nearest_piece(
+            turns in prop::collection::vec(-0.9..0.9_f64, 4..60), lengths in prop::collection::vec(0.02..2.0_f64, 60),
+            queries in prop::collection::vec((-0.3..1.3_f64, -0.3..1.3_f64), 200), curved in any::<bool>(),
+        ) {
+            let (mut heading, mut corners) = (0.0, vec![Vector2::zeros()]);
+            for (turn, length) in turns.iter().zip(&lengths) {
+                heading = 0.7 * heading + turn;
+                let (sine, cosine) = libm::sincos(heading);
+                corners.push(corners[corners.len() - 1] + *length * Vector2::new(cosine, sine));
+            }
+            let joints = corners.clone();
+            let shape = if curved { CurveShape::Spline(corners) } else { CurveShape::Polyline(corners) };
+            let Ok(curve) = Curve::new(&shape, false, false) else { return Ok(()) };
+            let bounds = |by: fn(&Vector2<f64>, &Vector2<f64>) -> Vector2<f64>| joints.iter().copied().reduce(|a, b| by(&a, &b)).unwrap();
+            let (low, high) = (bounds(Vector2::inf), bounds(Vector2::sup));
+            let (mut told, reach) = (0, (high - low).max());
+            let spots = queries.iter().map(|(x, y)| low + reach * Vector2::new(*x, *y));
+            for point in spots.chain(joints.iter().copied()) {
+                let Some(candidates) = curve.candidates.near(point) else { continue };
+                let (of_few, of_all) = (curve.best_among(point, candidates), curve.best_by_boxes(point));
+                prop_assert_eq!((of_few.distance, of_few.piece, of_few.parameter), (of_all.distance, of_all.piece, of_all.parameter));
+                told += 1;
+            }
+            prop_assert!(told > 0 || curve.pieces.len() < 5);
+        }
+    }
 }

@@ -8,23 +8,26 @@ pub struct Warm {
     /// The curve it is about; 0 for none.
     stamp: u64,
     /// The piece with the nearest point.
-    piece: usize,
+    piece: u32,
     /// From here all pieces are at least `room` (m) away but that one and its neighbours.
     pub(super) centre: Vector2<f64>,
     pub(super) room: f64,
-    /// Whether it has helped, and how many questions no proof is tried for after one that has not.
-    helped: bool,
+    /// How often it has helped, how many questions no proof is tried for, and for how many after the next that has not helped enough.
+    helped: u8,
     pause: u8,
+    next_pause: u8,
 }
 
-/// A proof that did not help once costs as much as a question: the next is tried so many questions later.
-const PAUSE: u8 = 8;
+/// A proof costs several questions: after one that has helped less often than this the next is tried so many questions later, and from
+/// then on after twice as many each time, up to so many.
+const WORTH: u8 = 8;
+const PAUSES: (u8, u8) = (8, 128);
 /// Taken off the room for rounding, as a part of it and of the curve's length.
 const ROUNDING: f64 = 1e-12;
 
 impl Default for Warm {
     fn default() -> Self {
-        Self { stamp: 0, piece: 0, centre: Vector2::zeros(), room: 0.0, helped: false, pause: 0 }
+        Self { stamp: 0, piece: 0, centre: Vector2::zeros(), room: 0.0, helped: 0, pause: 0, next_pause: PAUSES.0 }
     }
 }
 
@@ -32,13 +35,13 @@ impl Warm {
     /// The piece of a curve that a point is near for certain as long as it has moved little.
     #[inline]
     pub(super) fn piece_on(&self, curve: &Curve) -> Option<usize> {
-        (self.stamp == curve.stamp && self.room > 0.0).then_some(self.piece)
+        (self.stamp == curve.stamp && self.room > 0.0).then_some(self.piece as usize)
     }
 
     /// It has helped.
     #[inline]
     pub(crate) fn thank(&mut self) {
-        self.helped = true;
+        self.helped = self.helped.saturating_add(1);
     }
 }
 
@@ -49,26 +52,28 @@ impl Curve {
         let known = warm.stamp == self.stamp;
         if known && warm.room > 0.0 {
             let moved = (point - warm.centre).norm();
-            if let Some(best) = self.rest(point, warm.piece).filter(|best| best.distance + moved < warm.room) {
-                warm.helped = true;
+            if let Some(best) = self.rest(point, warm.piece as usize).filter(|best| best.distance + moved < warm.room) {
+                warm.thank();
                 return self.beyond_ends(point, best);
             }
             let mut best = self.none_yet();
-            self.look_at(point, warm.piece, &mut best);
+            self.look_at(point, warm.piece as usize, &mut best);
             if best.distance + moved < warm.room {
-                let [before, after] = self.beside(warm.piece);
+                let [before, after] = self.beside(warm.piece as usize);
                 for index in [before, after].into_iter().flatten() {
                     self.improve(point, index, &mut best);
                 }
-                warm.helped = true;
+                warm.thank();
                 return self.beyond_ends(point, best);
             }
         }
-        let best = if known { self.best_from(point, warm.piece) } else { self.best(point) };
-        let pause = match warm {
-            Warm { pause: 1.., .. } if known => warm.pause - 1,
-            Warm { helped: false, .. } if known => PAUSE,
-            _ => 0,
+        let best = if known { self.best_from(point, warm.piece as usize) } else { self.best(point) };
+        let (pause, next_pause) = match *warm {
+            Warm { pause: pause @ 1.., next_pause, .. } if known => (pause - 1, next_pause),
+            Warm { helped: ..WORTH, next_pause, .. } if known => {
+                (next_pause, next_pause.saturating_mul(2).min(PAUSES.1))
+            }
+            _ => (0, PAUSES.0),
         };
         let room = || {
             let slack = ROUNDING * (self.length + best.distance);
@@ -76,11 +81,12 @@ impl Curve {
         };
         *warm = Warm {
             stamp: self.stamp,
-            piece: best.piece,
+            piece: best.piece as u32,
             centre: point,
             room: if pause == 0 { room() } else { 0.0 },
-            helped: false,
+            helped: 0,
             pause,
+            next_pause,
         };
         self.beyond_ends(point, best)
     }
