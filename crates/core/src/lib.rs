@@ -13,10 +13,12 @@ mod event;
 mod health;
 mod interface;
 mod jump;
+mod marker;
 mod master;
 mod name;
 mod node_core;
 mod outbox;
+mod refusals;
 mod sink;
 mod time;
 
@@ -27,9 +29,11 @@ pub use interface::{
     Advertise, ByteStream, Discovered, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe,
 };
 pub use jump::{JumpWatch, jump_between};
+pub use marker::marker;
 pub use master::{Master, NotMaster};
 pub use name::resolve_name;
 pub use node_core::{NodeContext, NodeCore, StartError};
 pub use outbox::{Action, Outbox};
+pub use refusals::Refusals;
 pub use sink::{Level, Sink};
 pub use time::{RosTime, Steady, Times, duration_from_seconds};

@@ -12,23 +12,49 @@ pub struct NotMaster;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Master {
     pinned: Option<([u8; 16], Steady)>,
+    /// When another one was heard first since the master's last word.
+    challenged: Option<Steady>,
 }
 
 impl Master {
     /// How long a writer must be silent before another one is heard, s.
     pub const SILENCE: f64 = 0.5;
+    /// For how much of that time the other one must have been heard already, s. A machine that stood still for a moment finds words
+    /// of both, and whose come first is chance.
+    pub const GRACE: f64 = 0.1;
 
     /// Takes a message of `source` that came at `now`.
     ///
     /// # Errors
     /// When somebody else is the master.
     pub fn admit(&mut self, source: Source, now: Steady) -> Result<(), NotMaster> {
-        let master = self.pinned.filter(|(_, heard)| now.seconds_since(*heard) <= Self::SILENCE);
-        if master.is_some_and(|(gid, _)| gid != source.gid) {
+        self.check(source, now, Self::SILENCE)?;
+        self.pin(source, now);
+        Ok(())
+    }
+
+    /// Whether `source` is the master or, after so many seconds of silence, may become it.
+    ///
+    /// # Errors
+    /// When somebody else is the master.
+    pub fn check(&mut self, source: Source, now: Steady, silence: f64) -> Result<(), NotMaster> {
+        let Some((_, heard)) = self.pinned.filter(|(gid, _)| *gid != source.gid) else { return Ok(()) };
+        let challenged = *self.challenged.get_or_insert(now);
+        if now.seconds_since(heard) <= silence || now.seconds_since(challenged) < Self::GRACE {
             return Err(NotMaster);
         }
-        self.pinned = Some((source.gid, now));
         Ok(())
+    }
+
+    /// Makes `source` the master, or hears it again.
+    pub fn pin(&mut self, source: Source, now: Steady) {
+        (self.pinned, self.challenged) = (Some((source.gid, now)), None);
+    }
+
+    /// Whether `source` is the master.
+    #[must_use]
+    pub fn is(&self, source: Source) -> bool {
+        self.pinned.is_some_and(|(gid, _)| gid == source.gid)
     }
 }
 
@@ -36,13 +62,27 @@ impl Master {
 mod tests {
     use super::*;
 
+    /// Writers and times in hundredths of a second, and who of them is heard.
+    fn heard<const N: usize>(said: [(u8, u64); N]) -> [bool; N] {
+        let mut master = Master::default();
+        said.map(|(name, hundredths)| {
+            let source = Source { gid: [name; 16], sequence: 1 };
+            master.admit(source, Steady(hundredths * 10_000_000)).is_ok()
+        })
+    }
+
     #[test]
     fn the_second_waits_until_the_first_is_silent() {
-        let source = |name: u8| Source { gid: [name; 16], sequence: 1 };
-        let at = |tenths: u64| Steady(tenths * 100_000_000);
-        let mut master = Master::default();
-        let said = [(1, 0), (2, 1), (1, 4), (2, 8), (2, 9), (2, 10), (1, 11), (2, 12)];
-        let heard = said.map(|(name, tenths)| master.admit(source(name), at(tenths)).is_ok());
-        assert_eq!(heard, [true, false, true, false, false, true, false, true]);
+        let said = [(1, 0), (2, 10), (1, 40), (2, 80), (2, 90), (2, 91), (1, 110), (2, 120), (2, 200)];
+        assert_eq!(heard(said), [true, false, true, false, false, true, false, true, true]);
+    }
+
+    /// After a moment in which nobody was heard the master goes on, whoever comes first; one that has taken its place is heard
+    /// a tenth of a second after its first word.
+    #[test]
+    fn who_comes_first_after_a_pause_does_not_take_over() {
+        let said = [(1, 0), (2, 1), (1, 3), (2, 70), (2, 70), (1, 70), (2, 72), (1, 73), (2, 200), (2, 205), (2, 210)];
+        let goes_on = [true, false, true, false, false, true, false, true, false, false, true];
+        assert_eq!(heard(said), goes_on);
     }
 }

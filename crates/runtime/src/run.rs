@@ -14,6 +14,7 @@ use crate::transport::{Backend, TransportError, full_name};
 use crate::watchdog::Watchdog;
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 use std::process::ExitCode;
+use std::sync::Once;
 use std::time::Duration;
 use std::{env, io};
 use trench_config::params::USE_SIM_TIME;
@@ -105,6 +106,7 @@ fn try_run(
     journals: Option<&Journals>,
     is_single: bool,
 ) -> Result<u8, RunError> {
+    end_with_any_thread();
     let arguments = Arguments::parse(command_line)?;
     let mut descriptors = (description.parameters)();
     descriptors.extend(process_parameters());
@@ -142,6 +144,18 @@ fn try_run(
     let code = process.run()?;
     drop(leases);
     Ok(code)
+}
+
+/// A process whose network has died of a bug and that goes on deaf is worse than none: whoever supervises it starts it again.
+fn end_with_any_thread() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let tell = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |panic| {
+            tell(panic);
+            std::process::abort();
+        }));
+    });
 }
 
 /// How long the network may take to open, for the process and for each of its nodes.

@@ -5,9 +5,9 @@ use crate::control::Monitor;
 use crate::history::History;
 use crate::team::{Link, Robot, Team};
 use std::collections::BTreeMap;
-use trench_core::{RosTime, duration_from_seconds};
+use trench_core::RosTime;
 use trench_msgs::geometry_msgs;
-use trench_msgs::std_msgs::{ColorRGBA, Header};
+use trench_msgs::std_msgs::ColorRGBA;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
 /// Namespaces begin with this; the page draws them from their own topics.
@@ -60,18 +60,7 @@ impl Shown<'_> {
     }
 
     fn marker(&self, part: &str, id: i32, kind: i32, color: ColorRGBA) -> Marker {
-        let mut marker = Marker {
-            header: Header { stamp: self.now.into(), frame_id: "map".to_owned() },
-            ns: format!("{NAMESPACE}{part}"),
-            id,
-            r#type: kind,
-            action: Marker::ADD,
-            color,
-            lifetime: duration_from_seconds(LIFETIME),
-            ..Marker::default()
-        };
-        marker.pose.orientation.w = 1.0;
-        marker
+        trench_core::marker(self.now, format!("{NAMESPACE}{part}"), id, kind, color, LIFETIME)
     }
 
     /// The last minute of a robot.

@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Condition, Event, Files, Health, Interface, Level, Master, NodeContext, NodeCore, NodeDescription, NotMaster, Sink,
-    Source, StartError, Steady, Times, resolve_name,
+    Condition, Event, Files, Health, Interface, Level, Master, NodeContext, NodeCore, NodeDescription, NotMaster,
+    Refusals, Sink, Source, StartError, Steady, Times, resolve_name,
 };
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
@@ -57,7 +57,7 @@ pub struct FormationController {
     told: Option<(Steady, bool)>,
     /// When it was drawn last.
     drawn: Option<Steady>,
-    bad_messages: u64,
+    refusals: Refusals,
     /// Gains outside the stable zone that the operator allowed, to be told once the log is open.
     warning: Option<String>,
 }
@@ -88,7 +88,7 @@ fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Resul
         wakeup: None,
         told: None,
         drawn: None,
-        bad_messages: 0,
+        refusals: Refusals::default(),
         warning,
     }))
 }
@@ -250,16 +250,6 @@ impl FormationController {
             sink.publish(LEADER_STATE, &message);
         }
     }
-
-    fn dropped(&mut self, error: &Dropped, port: usize, sink: &mut dyn Sink) {
-        self.bad_messages += 1;
-        let topic = &self.interface.subscriptions[port].topic;
-        self.health.set("messages", Condition::Warn, format!("a message on {topic} was dropped: {error}"));
-        self.health.value("messages", "dropped", self.bad_messages);
-        if self.bad_messages == 1 {
-            sink.log(Level::Warn, &format!("a message on {topic} was dropped: {error}"));
-        }
-    }
 }
 
 impl NodeCore for FormationController {
@@ -274,12 +264,17 @@ impl NodeCore for FormationController {
             Event::Message { port, source, cdr, .. } => match self.take(at, port, source, cdr) {
                 Ok(true) => self.drive(at, sink),
                 Ok(false) => {}
-                Err(error) => self.dropped(&error, port, sink),
+                Err(error) => {
+                    let topic = &self.interface.subscriptions[port].topic;
+                    let text = format!("a message on {topic} was dropped: {error}");
+                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                }
             },
             Event::Wakeup => self.drive(at, sink),
             Event::Shutdown => self.send(at, &self.tick.rest(at), sink),
             _ => {}
         }
+        self.refusals.settle(at.steady, &mut self.health);
         self.health.publish(at, DIAGNOSTICS, sink);
     }
 

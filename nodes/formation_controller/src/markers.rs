@@ -1,15 +1,14 @@
 //! What a controller goes by, as RViz2 and Foxglove draw it: zones, hulls merged with the robots ahead, what is left of the segment,
 //! the point that draws the robot, forces, the way out of a minimum (Figures 7.4 to 7.14).
 
-use crate::ports::MAP;
-use trench_core::{RosTime, duration_from_seconds};
+use trench_core::RosTime;
 use trench_formation::Vector2;
 use trench_formation::agent::{Action, Agent, Surroundings};
 use trench_formation::curve::{Interval, Placed};
 use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::Radii;
 use trench_msgs::geometry_msgs::{Point, Vector3};
-use trench_msgs::std_msgs::{ColorRGBA, Header};
+use trench_msgs::std_msgs::ColorRGBA;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
 /// What a viewer shows of a controller that has ended goes away after this, s.
@@ -133,19 +132,9 @@ struct Drawn {
 
 impl Drawn {
     fn add(&mut self, part: &str, kind: i32, color: ColorRGBA) -> &mut Marker {
-        let marker = Marker {
-            header: Header { stamp: self.stamp.into(), frame_id: MAP.to_owned() },
-            ns: format!("controller/{part}"),
-            id: self.first + self.markers.len() as i32,
-            r#type: kind,
-            action: Marker::ADD,
-            color,
-            lifetime: duration_from_seconds(LIFETIME),
-            ..Marker::default()
-        };
-        self.markers.push(marker);
-        let last = self.markers.len() - 1;
-        self.markers[last].pose.orientation.w = 1.0;
+        let last = self.markers.len();
+        let id = self.first + last as i32;
+        self.markers.push(trench_core::marker(self.stamp, format!("controller/{part}"), id, kind, color, LIFETIME));
         &mut self.markers[last]
     }
 

@@ -9,8 +9,8 @@ use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, JumpWatch, Level, Local, Master, NodeContext, NodeCore,
-    NodeDescription, NotMaster, Qos, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
+    Advertise, Event, Files, Health, Interface, JumpWatch, Local, Master, NodeContext, NodeCore, NodeDescription,
+    NotMaster, Qos, Refusals, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
@@ -67,6 +67,7 @@ pub struct LeaderAssignment {
     pub(crate) target: Target,
     pub(crate) targets_refused: u64,
     pub(crate) health: Health,
+    refusals: Refusals,
     wakeup: Option<Steady>,
     jumps: JumpWatch,
     pub(crate) last_picture: Option<Steady>,
@@ -90,6 +91,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
     Ok(Box::new(LeaderAssignment {
         interface: interface(&settings.robots),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
+        refusals: Refusals::default(),
         configured: held.message.hash,
         held,
         target: Target::new(settings.target),
@@ -192,8 +194,7 @@ impl NodeCore for LeaderAssignment {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");
-                    sink.log(Level::Warn, &text);
-                    self.health.set("messages", Condition::Warn, text);
+                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
                 }
             }
             Event::Request { service, id, cdr } => self.serve(at, (service, id), cdr, sink),
@@ -208,6 +209,7 @@ impl NodeCore for LeaderAssignment {
             Event::Shutdown => sink.checkpoint(&[]),
             _ => {}
         }
+        self.refusals.settle(at.steady, &mut self.health);
         self.health.publish(at, DIAGNOSTICS, sink);
     }
 

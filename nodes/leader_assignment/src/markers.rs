@@ -2,12 +2,11 @@
 //! of it in the chain.
 
 use crate::Carrier;
-use trench_core::duration_from_seconds;
 use trench_formation::Vector2;
 use trench_msgs::builtin_interfaces::Time;
-use trench_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
+use trench_msgs::geometry_msgs::{Point, Vector3};
 use trench_msgs::msg::{Assignment, Goals, TeamState};
-use trench_msgs::std_msgs::{ColorRGBA, Header};
+use trench_msgs::std_msgs::ColorRGBA;
 use trench_msgs::visualization_msgs::Marker;
 use trench_plan::{Plan, sampled};
 
@@ -67,19 +66,8 @@ pub(crate) fn of_chains(stamp: Time, team: &TeamState, assignment: &Assignment) 
 
 fn marker(stamp: Time, part: &str, id: usize, look: (i32, Vector3, ColorRGBA), points: Vec<Point>) -> Marker {
     let (kind, scale, color) = look;
-    Marker {
-        header: Header { stamp, frame_id: "map".to_owned() },
-        ns: format!("formation/{part}"),
-        id: id as i32,
-        r#type: kind,
-        action: Marker::ADD,
-        pose: Pose { orientation: Quaternion { w: 1.0, ..Quaternion::default() }, ..Pose::default() },
-        scale,
-        color,
-        lifetime: duration_from_seconds(LIFETIME),
-        points,
-        ..Marker::default()
-    }
+    let begun = trench_core::marker(stamp, format!("formation/{part}"), id as i32, kind, color, LIFETIME);
+    Marker { scale, points, ..begun }
 }
 
 fn level(point: Vector2<f64>) -> Point {

@@ -9,8 +9,8 @@ use crate::team::{Team, Whereabouts};
 use std::collections::{BTreeMap, VecDeque};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Condition, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, RosTime,
-    Sink, StartError, Steady, Subscribe, Times, resolve_name,
+    Advertise, Condition, Event, Files, Health, Interface, Local, Master, NodeContext, NodeCore, NodeDescription, Qos,
+    RosTime, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
 use trench_formation::hull::{ApparentObstacle, Obstacle, combine_unless};
@@ -46,6 +46,8 @@ pub struct ObstacleMapper {
     settings: Settings,
     sources: Sources,
     team: Team,
+    /// Who writes /team_state.
+    localizer: Master,
     /// Scans that are newer than the last team state, with the robot and when they came.
     waiting: VecDeque<(usize, LaserScan, Steady)>,
     memory: Memory,
@@ -98,6 +100,7 @@ impl ObstacleMapper {
             settings,
             sources: Sources::default(),
             team: Team::default(),
+            localizer: Master::default(),
             waiting: VecDeque::new(),
             memory: Memory::default(),
             clusters: Clusters::default(),
@@ -182,6 +185,23 @@ impl ObstacleMapper {
         }
     }
 
+    fn poses(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        let admitted = TeamState::decode(cdr).map_err(|error| error.to_string()).and_then(|message| {
+            let admitted = self.localizer.admit(source, at.steady);
+            admitted.map(|()| message).map_err(|error| error.to_string())
+        });
+        match admitted {
+            Ok(message) => {
+                self.team.take(&message);
+                self.take_scans(at, sink);
+            }
+            Err(error) => {
+                let what = format!("a message on /team_state was dropped: {error}");
+                self.of_scans.refuse(&what, &mut self.health, sink);
+            }
+        }
+    }
+
     fn scan(&mut self, at: Times, robot: usize, cdr: &[u8], sink: &mut dyn Sink) {
         let name = self.settings.robots.get(robot).map_or("?", String::as_str);
         let checked = LaserScan::decode(cdr).map_err(|error| error.to_string()).and_then(|scan| {
@@ -262,16 +282,7 @@ impl NodeCore for ObstacleMapper {
             Event::Started | Event::Wakeup => self.publish(at, sink),
             Event::Matched { port: OBSTACLES, writers } => self.sources.connected(writers),
             Event::Message { port: OBSTACLES, source, cdr, .. } => self.obstacles(at, source.gid, cdr, sink),
-            Event::Message { port: TEAM, cdr, .. } => match TeamState::decode(cdr) {
-                Ok(message) => {
-                    self.team.take(&message);
-                    self.take_scans(at, sink);
-                }
-                Err(error) => {
-                    let what = format!("a message on /team_state was dropped: {error}");
-                    self.of_scans.refuse(&what, &mut self.health, sink);
-                }
-            },
+            Event::Message { port: TEAM, source, cdr, .. } => self.poses(at, source, cdr, sink),
             Event::Message { port, cdr, .. } => self.scan(at, port.saturating_sub(SCANS), cdr, sink),
             _ => {}
         }

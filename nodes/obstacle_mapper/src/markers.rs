@@ -3,12 +3,12 @@
 
 use crate::scans::Memory;
 use crate::sources::Known;
-use trench_core::{RosTime, duration_from_seconds};
+use trench_core::RosTime;
 use trench_formation::Vector2;
 use trench_formation::hull::Outline;
 use trench_msgs::geometry_msgs::{Point, Vector3};
 use trench_msgs::msg::ApparentObstacle;
-use trench_msgs::std_msgs::{ColorRGBA, Header};
+use trench_msgs::std_msgs::ColorRGBA;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 
 /// Corners that stand for a rounded one.
@@ -51,18 +51,7 @@ impl Picture<'_> {
 }
 
 fn marker(namespace: &str, id: u32, kind: i32, color: ColorRGBA, stamp: RosTime) -> Marker {
-    let mut marker = Marker {
-        header: Header { stamp: stamp.into(), frame_id: "map".to_owned() },
-        ns: namespace.to_owned(),
-        id: id as i32,
-        r#type: kind,
-        action: Marker::ADD,
-        color,
-        lifetime: duration_from_seconds(LIFETIME),
-        ..Marker::default()
-    };
-    marker.pose.orientation.w = 1.0;
-    marker
+    trench_core::marker(stamp, namespace, id as i32, kind, color, LIFETIME)
 }
 
 fn strip(namespace: &str, id: u32, outline: Outline<'_>, width: f64, color: ColorRGBA, stamp: RosTime) -> Marker {

@@ -225,6 +225,10 @@ fn bad_messages_are_told_of_and_good_ones_end_it() {
     assert_eq!(bench.condition("obstacles").0, 2);
 
     bench.team(&[[0.5, 0.0], [0.5, 1.0]]);
+    bench.send("/team_state", 99, &TeamState::default().to_cdr());
+    assert!(bench.condition("scans").1.contains("another publisher writes this topic"));
+    // Another reason of the same condition waits a little.
+    bench.seconds += 0.3;
     let mut bad = scan(bench.header(), [0.5, 0.0], None);
     bad.range_max = f32::NAN;
     bench.send("/robot1/scan", 10, &bad.to_cdr());

@@ -1,10 +1,9 @@
 //! Robots as RViz2 and Foxglove draw them: a disc for the body, an arrow for the heading, the name; coloured by status.
 
 use crate::track::{Status, Track, Tracker};
-use trench_core::duration_from_seconds;
 use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::geometry_msgs::{Point, Pose, Quaternion, Vector3};
-use trench_msgs::std_msgs::{ColorRGBA, Header};
+use trench_msgs::std_msgs::ColorRGBA;
 use trench_msgs::visualization_msgs::{Marker, MarkerArray};
 use trench_optics::Pad;
 
@@ -25,20 +24,11 @@ fn robot(stamp: Time, index: i32, track: &Track, pad: &Pad) -> Vec<Marker> {
     let Some(filter) = &track.filter else { return Vec::new() };
     let pose = filter.state().pose;
     let (sin, cos) = libm::sincos(0.5 * pose.theta);
-    let marker = |namespace: &str, kind: i32, height: f64, [x, y, z]: [f64; 3], color: ColorRGBA| Marker {
-        header: Header { stamp, frame_id: "map".to_owned() },
-        ns: format!("robots/{namespace}"),
-        id: index,
-        r#type: kind,
-        action: Marker::ADD,
-        pose: Pose {
-            position: Point { x: pose.x, y: pose.y, z: height },
-            orientation: Quaternion { x: 0.0, y: 0.0, z: sin, w: cos },
-        },
-        scale: Vector3 { x, y, z },
-        color,
-        lifetime: duration_from_seconds(LIFETIME),
-        ..Marker::default()
+    let marker = |namespace: &str, kind: i32, height: f64, [x, y, z]: [f64; 3], color: ColorRGBA| {
+        let begun = trench_core::marker(stamp, format!("robots/{namespace}"), index, kind, color, LIFETIME);
+        let position = Point { x: pose.x, y: pose.y, z: height };
+        let orientation = Quaternion { x: 0.0, y: 0.0, z: sin, w: cos };
+        Marker { pose: Pose { position, orientation }, scale: Vector3 { x, y, z }, ..begun }
     };
     let (body, dark) = (pad.body_diameter, ColorRGBA { r: 0.1, g: 0.1, b: 0.1, a: 0.9 });
     let disc = marker("body", Marker::CYLINDER, pad.height, [body, body, THICKNESS], colour(track.status));

@@ -7,7 +7,7 @@ use crate::robot::Robot;
 use crate::settings::Tuning;
 use crate::stop::EmergencyStop;
 use trench_config::{ConfigError, Parameters};
-use trench_core::{Condition, Event, Health, Interface, Level, NodeCore, Sink, Source, Steady, Times};
+use trench_core::{Event, Health, Interface, Level, NodeCore, Refusals, Sink, Source, Steady, Times};
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -43,9 +43,7 @@ pub struct RfBridge {
     pub(crate) heartbeat_at: Steady,
     pub(crate) repeat_at: Option<Steady>,
     pub(crate) looked_at: Option<Steady>,
-    pub(crate) refused: u64,
-    /// When the last message was dropped.
-    pub(crate) refused_at: Option<Steady>,
+    pub(crate) refusals: Refusals,
     pub(crate) health: Health,
 }
 
@@ -85,22 +83,12 @@ impl RfBridge {
                     Ok(()) => self.gather(at, sink),
                     Err(refusal) => {
                         let text = format!("a command for {} was dropped: {refusal}", robot.name);
-                        self.refuse(at, text, sink);
+                        self.refusals.tell(at.steady, port, text, &mut self.health, sink);
                     }
                 }
             }
         }
         Ok(())
-    }
-
-    fn refuse(&mut self, at: Times, text: String, sink: &mut dyn Sink) {
-        self.refused += 1;
-        self.refused_at = Some(at.steady);
-        if self.refused == 1 {
-            sink.log(Level::Warn, &text);
-        }
-        self.health.set("messages", Condition::Warn, text);
-        self.health.value("messages", "dropped", self.refused);
     }
 
     fn wake(&mut self, at: Times, sink: &mut dyn Sink) {
@@ -154,7 +142,7 @@ impl NodeCore for RfBridge {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
                     let topic = &self.interface.subscriptions[port].topic;
                     let text = format!("a message on {topic} was dropped: {error}");
-                    self.refuse(at, text, sink);
+                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
                 }
             }
             Event::Request { service, id, .. } => {

@@ -5,9 +5,6 @@ use crate::robot::Robot;
 use trench_core::{Condition, Steady};
 use trench_radio::Fault;
 
-/// A dropped message is worth a warning for this long, s.
-const LATELY: f64 = 5.0;
-
 /// A robot that has not been heard for so long is named, s: three of its reports. Its link is down only after `silence`.
 const UNHEARD: f64 = 0.35;
 
@@ -33,9 +30,7 @@ impl RfBridge {
         let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
         let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();
         self.health.value("links", "relays", relays.join(", "));
-        if self.refused_at.is_none_or(|at| now.seconds_since(at) > LATELY) {
-            self.health.set("messages", Condition::Ok, "none was dropped lately");
-        }
+        self.refusals.settle(now, &mut self.health);
     }
 
     fn of_commands(&self, now: Steady) -> (Condition, String) {

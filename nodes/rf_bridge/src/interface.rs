@@ -8,8 +8,8 @@ use crate::settings::{Settings, descriptors};
 use crate::stop::EmergencyStop;
 use trench_config::Parameters;
 use trench_core::{
-    Advertise, ByteStream, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Serve,
-    StartError, Steady, Subscribe, resolve_name,
+    Advertise, ByteStream, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Refusals,
+    Serve, StartError, Steady, Subscribe, resolve_name,
 };
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -68,8 +68,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         heartbeat_at: Steady::default(),
         repeat_at: None,
         looked_at: None,
-        refused: 0,
-        refused_at: None,
+        refusals: Refusals::default(),
         health: Health::new(resolve_name("~", &context.namespace, &context.name)),
     }))
 }

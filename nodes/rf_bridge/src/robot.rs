@@ -6,7 +6,7 @@ use crate::monitor::Monitor;
 use crate::odometry::WheelOdometry;
 use crate::relays::Reach;
 use crate::settings::Tuning;
-use trench_core::{RosTime, Source, Steady, Times};
+use trench_core::{Master, RosTime, Source, Steady, Times};
 use trench_msgs::geometry_msgs::Twist;
 use trench_radio::{WheelTimer, Wheels};
 
@@ -65,7 +65,9 @@ pub(crate) struct Robot {
     pub(crate) was_up: bool,
     /// Commands that were too old when the line was free.
     pub(crate) expired: u64,
-    master: Option<([u8; 16], Steady)>,
+    master: Master,
+    /// When a command was taken last.
+    commanded: Option<Steady>,
     command: Option<Command>,
     driven_at: Option<Steady>,
     dither: Dither,
@@ -81,14 +83,15 @@ impl Robot {
             reach: Reach::default(),
             was_up: false,
             expired: 0,
-            master: None,
+            master: Master::default(),
+            commanded: None,
             command: None,
             driven_at: None,
             dither: Dither::default(),
         }
     }
 
-    /// Takes a command. Each robot has one master: the publisher heard last, until it falls silent.
+    /// Takes a command. Each robot has one master: the publisher heard first, until it falls silent.
     pub(crate) fn accept(
         &mut self,
         at: Times,
@@ -97,10 +100,7 @@ impl Robot {
         stamp: Option<RosTime>,
         tuning: &Tuning,
     ) -> Result<(), Refusal> {
-        let master = self.master.filter(|(_, heard)| at.steady.seconds_since(*heard) <= tuning.silence);
-        if master.is_some_and(|(gid, _)| gid != source.gid) {
-            return Err(Refusal::Master);
-        }
+        self.master.check(source, at.steady, tuning.silence).map_err(|_| Refusal::Master)?;
         let numbers =
             [twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y, twist.angular.z];
         if !numbers.iter().all(|number| number.is_finite()) {
@@ -117,9 +117,14 @@ impl Robot {
             return Err(Refusal::Future);
         }
         if age > tuning.information_age {
+            // It knows nothing new, and is there.
+            if self.master.is(source) {
+                self.master.pin(source, at.steady);
+            }
             return Err(Refusal::Old);
         }
-        self.master = Some((source.gid, at.steady));
+        self.master.pin(source, at.steady);
+        self.commanded = Some(at.steady);
         self.command = Some(Command { received: at.steady, stamp, age: age.max(0.0), v, omega });
         Ok(())
     }
@@ -136,7 +141,7 @@ impl Robot {
 
     /// Whether a command may be expected in every camera frame.
     pub(crate) fn expected(&self, now: Steady) -> bool {
-        self.master.is_some_and(|(_, heard)| now.seconds_since(heard) <= EXPECTED)
+        self.commanded.is_some_and(|last| now.seconds_since(last) <= EXPECTED)
     }
 
     /// Forgets what it was told.

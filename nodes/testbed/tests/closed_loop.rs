@@ -211,7 +211,7 @@ fn numbers_that_are_none_never_reach_a_wheel() {
     }
     both.run(1100);
     assert_eq!((both.place(1), both.place(2)), ((0.4, 0.5), (0.4, 1.2)));
-    assert_eq!(both.logged(Level::Warn), 1, "told once, counted from then on");
+    assert_eq!(both.logged(Level::Warn), 2, "told once a robot, counted from then on");
     let diagnostics: DiagnosticArray = both.bridge.last("/diagnostics");
     let messages = diagnostics.status.iter().find(|status| status.name.ends_with("messages")).unwrap();
     assert!(messages.values.iter().any(|value| value.key == "dropped" && value.value == "60"), "{messages:?}");

@@ -9,6 +9,7 @@ mod graph;
 mod image;
 mod images;
 mod long;
+mod longest;
 mod malformed;
 mod name;
 mod participant;

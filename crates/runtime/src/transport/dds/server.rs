@@ -1,8 +1,9 @@
 //! The serving end of a service, in the "enhanced" mapping of DDS-RPC that ROS 2's Fast DDS uses.
 
 use super::long;
+use super::longest::longest_annotated;
 use super::reader::DdsReader;
-use super::writer::{DdsWriter, LONGEST_ANNOTATED, gid};
+use super::writer::{DdsWriter, gid};
 use crate::transport::network::{Gid, NetworkReader, NetworkWriter, NotSent, PendingRequest, ServiceServer};
 use rustdds::bytes::Bytes;
 use rustdds::mio1::{Interest, Registry, Token, event};
@@ -37,7 +38,7 @@ impl DdsServer {
     }
 
     fn send(&mut self, request: SampleIdentity, response: Bytes) -> Result<(), NotSent> {
-        let written = if response.len() > LONGEST_ANNOTATED {
+        let written = if response.len() > longest_annotated() {
             self.send_long(request, &response)?;
             self.responses.write(Bytes::from_static(long::PLACEHOLDER))
         } else {

@@ -1,6 +1,7 @@
 //! The network end of a publication.
 
 use super::Images;
+use super::longest::longest_annotated;
 use super::raw::{RawAdapter, RawMessage};
 use crate::transport::network::{Congested, Gid, NetworkWriter};
 use rustdds::bytes::Bytes;
@@ -12,12 +13,6 @@ use std::time::Duration;
 /// Messages that may wait for room in the send window, which itself holds 8192 unacknowledged samples. Whoever is this
 /// far behind is not coming back; memory ends somewhere.
 const WAITING: usize = 8192;
-
-/// The longest message that can say more than itself, bytes: its writer's own count, or in a response which request it
-/// answers. Both are said in inline quality of service, and with that nobody can read what RustDDS 0.15.1 cuts up: what is
-/// longer than 1452 bytes less heartbeat (32) and header (48) where a reader announces an Ethernet address. For longer
-/// responses see [`super::long`].
-pub(super) const LONGEST_ANNOTATED: usize = 1372;
 
 /// Writes messages in order and never blocks: what the send window does not take waits here.
 pub(crate) struct DdsWriter {
@@ -84,7 +79,7 @@ impl NetworkWriter for DdsWriter {
             return Ok(());
         }
         let mut options = WriteOptionsBuilder::new();
-        if count != self.accepted + 1 && message.len() <= LONGEST_ANNOTATED {
+        if count != self.accepted + 1 && message.len() <= longest_annotated() {
             let sequence_number = SequenceNumber::from(i64::try_from(count).unwrap_or(i64::MAX));
             options = options.related_sample_identity(SampleIdentity { writer_guid: self.guid(), sequence_number });
         }
@@ -92,7 +87,7 @@ impl NetworkWriter for DdsWriter {
     }
 
     fn longest_counted(&self) -> usize {
-        LONGEST_ANNOTATED
+        longest_annotated()
     }
 
     fn flush(&mut self) -> bool {

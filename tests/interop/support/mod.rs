@@ -3,6 +3,7 @@
 pub(crate) mod graph;
 mod island;
 mod launch;
+pub(crate) mod markers;
 mod peer;
 mod team;
 
