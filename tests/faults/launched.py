@@ -16,6 +16,8 @@ from hosts import BASE, GATE, Hosts
 ROOT = Path(__file__).resolve().parents[2]
 # Nothing that a run waits for takes longer, s.
 PATIENCE = 60.0
+# A file system in memory.
+MEMORY = Path("/dev/shm")
 ROBOTS = ["robot1", "robot2", "robot3", "robot4"]
 
 
@@ -45,6 +47,8 @@ class Launched:
 
     def __init__(self, run: dict, binaries: Path, folder: Path, seed: int):
         self.folder, self.binaries = folder, binaries
+        # Where nodes keep it by themselves, too: a disk that is slow to replace a file is no fault of the matrix.
+        self.state = MEMORY / f"trench-faults-{os.getpid()}"
         self.hosts = Hosts(run["hosts"], ROBOTS, seed) if "hosts" in run else None
         self.launchers: dict[str, subprocess.Popen] = {}
         self.recorder, self.line, self.disk = None, None, None
@@ -99,7 +103,7 @@ class Launched:
     def environment(self, host: str, true_clock: bool = False) -> dict[str, str]:
         """Of a process on a host."""
         own = {"TRENCH_SHM_PREFIX": self.shared_memory()} if self.hosts is None else self.hosts.environment(host)
-        own |= {"TRENCH_STATE_DIR": str(self.folder / "state" / host), "PATH": f"{self.binaries}:{os.environ['PATH']}"}
+        own |= {"TRENCH_STATE_DIR": str(self.state / host), "PATH": f"{self.binaries}:{os.environ['PATH']}"}
         if self.clocks and not true_clock:
             own |= {"LD_PRELOAD": str(self.folder / "wall_clock.so"), "WALL_CLOCK": str(self.folder / f"{host}.clock")}
         return os.environ | own
@@ -213,5 +217,6 @@ class Launched:
         if self.hosts:
             self.hosts.close()
         # Not those of a process whose number begins with the digits of ours.
-        for file in Path("/dev/shm").glob(f"trench_*_{self.shared_memory()}[!0-9]*"):
+        shutil.rmtree(self.state, ignore_errors=True)
+        for file in MEMORY.glob(f"trench_*_{self.shared_memory()}[!0-9]*"):
             file.unlink(missing_ok=True)
