@@ -29,5 +29,5 @@ pub use key::{Key, KeyError};
 pub use link::{Ack, AckStatus, LinkFrame};
 pub use packet::{COUNTER_LIMIT, Packet, Payload, VERSION, relayed_once_more};
 pub use relays::{MAX_RELAYS, RELAY_SLOT, RelayList, Relaying};
-pub use telemetry::{Fault, MAX_RANGES, NOTHING_IN_RANGE, Ranges, Telemetry};
+pub use telemetry::{Fault, MAX_RANGES, NOTHING_IN_RANGE, Ranges, TELEMETRY_ROUND, Telemetry};
 pub use timer::{METRES_PER_STEP, SPEED_TIMES_TIMER, TIMER_FASTEST, TIMER_SLOWEST, WheelTimer, Wheels, wheel_speed};

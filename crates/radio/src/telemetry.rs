@@ -2,6 +2,9 @@
 
 use crate::{MAX_ROBOTS, PacketError, RobotSet};
 
+/// A round of telemetry, ns: every robot reports once, in its slot.
+pub const TELEMETRY_ROUND: u64 = 100_000_000;
+
 /// Range sensors a robot can report.
 pub const MAX_RANGES: usize = 8;
 

@@ -12,10 +12,7 @@ use crate::{Contact, Laser, Obstacle, Random, Truth, World, battery};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use trench_optics::Pose2;
-use trench_radio::{MAX_ROBOTS, Ranges};
-
-/// A round of telemetry, ns: every robot reports once.
-const ROUND: u64 = 100_000_000;
+use trench_radio::{MAX_ROBOTS, Ranges, TELEMETRY_ROUND};
 
 /// Instants of an exposure at which the robots are drawn.
 const INSTANTS: usize = 4;
@@ -124,7 +121,7 @@ impl Bed {
         let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, lasers, laser, baud, key, faults } =
             setup;
         let poses = robots.iter().map(|(_, pose)| *pose).collect();
-        let slot = |id: u8| start + u64::from(id) * (ROUND / MAX_ROBOTS as u64);
+        let slot = |id: u8| start + u64::from(id) * (TELEMETRY_ROUND / MAX_ROBOTS as u64);
         Self {
             world: World::new(start, body, field, obstacles, poses),
             firmware: robots.iter().map(|&(id, _)| (id, Firmware::new(id, key.clone(), start))).collect(),
@@ -361,7 +358,7 @@ impl Bed {
     }
 
     fn report(&mut self, now: u64, robot: usize) {
-        self.reports[robot] += ROUND;
+        self.reports[robot] += TELEMETRY_ROUND;
         let wheels = self.world.wheels(robot).copied().unwrap_or_default();
         let sensors = Sensors {
             battery_mv: self.battery(now, robot),

@@ -1,15 +1,21 @@
-//! Whether the air loses more packets than it does by chance: Page's test over what all robots report.
+//! Whether the air loses more packets than it does by chance: Page's test over what all robots report, and whether they do.
 //!
 //! E. S. Page, Continuous inspection schemes, Biometrika 41 (1954). Of all tests that raise a false alarm as rarely this one
-//! finds a change soonest. One robot's 30 packets a second would need a second; a team's tell within a third of one.
+//! finds a change soonest. One robot's 30 packets a second would need a second; a team's tell within a third of one. What its
+//! reports say comes later the more of them are lost; that one did not come in its slot is known at once.
+
+use trench_core::Steady;
 
 /// Shares of packets lost between which it decides: in order, and not.
 const ORDINARY: f64 = 0.03;
-const BAD: f64 = 0.3;
+const BAD: f64 = 0.25;
 
-/// Natural logarithm of the likelihood ratio at which it decides. Where 3 % are lost 1.7 million packets, four hours of four
-/// robots, pass on average before an alarm that is none; where 5 % are, seven minutes.
+/// Natural logarithm of the likelihood ratio at which it decides. Where 3 % are lost 2.4 million packets, four hours of four
+/// robots, pass on average before an alarm that is none; where 5 % are, four minutes.
 const ALARM: f64 = 12.0;
+
+/// Without anything to do for so long, s, the bridge was held up, and reports may have been lost on its own threshold.
+const HELD_UP: f64 = 0.25;
 
 /// More evidence than this is not kept, so that the end is found as soon as the beginning.
 const MOST: f64 = 2.0 * ALARM;
@@ -19,6 +25,8 @@ const MOST: f64 = 2.0 * ALARM;
 pub(crate) struct Channel {
     evidence: f64,
     bad: bool,
+    /// Since when the bridge hears whatever comes, and until when it is known to.
+    attentive: (Steady, Steady),
 }
 
 impl Channel {
@@ -32,6 +40,18 @@ impl Channel {
         std::mem::replace(&mut self.bad, bad) != bad
     }
 
+    /// The bridge does something: it was not held up.
+    pub(crate) fn attend(&mut self, now: Steady) {
+        let (since, until) = self.attentive;
+        let held_up = now.seconds_since(until) > HELD_UP;
+        self.attentive = (if held_up { now } else { since }, now);
+    }
+
+    /// From when on no report is missed by the bridge's own fault.
+    pub(crate) fn attentive_since(&self) -> Steady {
+        self.attentive.0
+    }
+
     /// Whether it is bad; good again once all evidence of the contrary is outweighed.
     pub(crate) fn is_bad(&self) -> bool {
         self.bad
@@ -40,7 +60,7 @@ impl Channel {
 
 #[cfg(test)]
 mod tests {
-    use super::Channel;
+    use super::{Channel, Steady};
 
     /// Packets, of which every `nth` is lost, until the answer is `bad`.
     fn until(channel: &mut Channel, nth: u64, bad: bool) -> Option<u64> {
@@ -49,6 +69,15 @@ mod tests {
             channel.hear(1 - lost, lost);
             channel.is_bad() == bad
         })
+    }
+
+    #[test]
+    fn who_was_held_up_knows_of_nothing_before() {
+        let mut channel = Channel::default();
+        for ms in [1000, 1100, 1200, 2200, 2300] {
+            channel.attend(Steady(ms * 1_000_000));
+        }
+        assert_eq!(channel.attentive_since(), Steady(2_200_000_000));
     }
 
     #[test]

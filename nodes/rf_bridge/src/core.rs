@@ -130,6 +130,7 @@ impl NodeCore for RfBridge {
     }
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
+        self.channel.attend(at.steady);
         match event {
             Event::Started => {
                 self.downlink.start(at);

@@ -5,14 +5,20 @@ use std::collections::VecDeque;
 use trench_core::{RosTime, Steady, Times};
 use trench_msgs::msg::LinkStatus;
 use trench_msgs::std_msgs::Header;
-use trench_radio::{Freshness, Stale, Telemetry};
+use trench_radio::{Freshness, Stale, TELEMETRY_ROUND, Telemetry};
 
 /// Loss is taken over this time, s.
 const WINDOW: f64 = 1.0;
 
-/// More than this share of lost packets is named, if so many were sent.
+/// More than this share of lost packets is named, if so many were sent: of ten three are lost by chance now and then.
 const POOR: f64 = 0.2;
-const ENOUGH: u64 = 10;
+const ENOUGH: u64 = 20;
+
+/// A report is late, s, beyond what air, relays and the line take longer at one time than at another.
+const LATE: f64 = 0.04;
+
+/// Reports missed one after the other say that much is lost; more of them, that the robot is gone, which its link says.
+const IN_A_ROW: u64 = 2;
 
 /// Weight of a new round trip in the filtered one.
 const SMOOTHING: f64 = 0.2;
@@ -26,6 +32,8 @@ pub(crate) struct Monitor {
     window: VecDeque<(Steady, u16, u64)>,
     round_trip: f64,
     received: u64,
+    /// Reports that were due since the last one.
+    missed: u64,
     pub(crate) rejected: u64,
     pub(crate) sent: u64,
 }
@@ -50,6 +58,7 @@ impl Monitor {
     /// not. `sent`: the packet that it names as its last, if known.
     pub(crate) fn update(&mut self, at: Times, report: Telemetry, relayed: u8, sent: Option<Sent>) -> (u64, u64) {
         self.received += 1;
+        self.missed = 0;
         self.heard = Some(Heard { at: at.steady, ros: at.ros, report, relayed });
         let before = self.window.back().copied();
         self.window.extend(sent.map(|sent| (at.steady, report.received, sent.before)));
@@ -67,6 +76,16 @@ impl Monitor {
             let reached = u64::from(report.received.wrapping_sub(received));
             (reached, sent.before.saturating_sub(sent_before).saturating_sub(reached))
         })
+    }
+
+    /// How many more reports are overdue than were when this was asked before; `since`: from when on they would have been heard.
+    pub(crate) fn overdue(&mut self, now: Steady, since: Steady) -> u64 {
+        let Some(heard) = &self.heard else { return 0 };
+        let silent = now.seconds_since(heard.at.max(since).plus_seconds(LATE));
+        let missed = ((silent / (TELEMETRY_ROUND as f64 * 1e-9)) as u64).min(IN_A_ROW);
+        let more = missed.saturating_sub(self.missed);
+        self.missed += more;
+        more
     }
 
     /// The last report.
@@ -120,6 +139,21 @@ impl Monitor {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_report_that_does_not_come_in_its_round_is_missed_once_and_three_are_two() {
+        let (mut monitor, mut missed) = (Monitor::default(), Vec::new());
+        let at = |ms: u64| Times { steady: Steady(ms * 1_000_000), ros: RosTime(0) };
+        assert_eq!(monitor.overdue(at(900).steady, Steady(0)), 0, "it was never heard");
+        for heard in [1000, 1120, 1700] {
+            monitor.update(at(heard), Telemetry::default(), 0, None);
+            let until = if heard == 1000 { 1120 } else { heard + 580 };
+            missed.extend((heard..until).filter(|ms| monitor.overdue(at(*ms).steady, Steady(0)) == 1));
+        }
+        assert_eq!(missed, [1260, 1360, 1840, 1940]);
+        monitor.update(at(3000), Telemetry::default(), 0, None);
+        assert_eq!(monitor.overdue(at(3500).steady, at(3450).steady), 0, "the bridge did not listen");
+    }
 
     #[test]
     fn loss_over_a_second_and_round_trip() {

@@ -15,6 +15,16 @@ impl RfBridge {
             }
         });
         self.decoder = decoder;
+        self.miss(at);
+    }
+
+    /// Counts reports that did not come in their slots: what lies between the base station and the bridge has just been read.
+    fn miss(&mut self, at: Times) {
+        let since = self.channel.attentive_since();
+        let missed = self.robots.iter_mut().map(|robot| robot.monitor.overdue(at.steady, since)).sum();
+        if self.channel.hear(0, missed) {
+            self.diagnose(at.steady);
+        }
     }
 
     pub(crate) fn hear_packet(&mut self, at: Times, packet: &[u8], sink: &mut dyn Sink) {
@@ -36,7 +46,7 @@ impl RfBridge {
         robot.reach.heard(at.steady, packet.relayed);
         let (received, lost) = robot.monitor.update(at, telemetry, packet.relayed, sent);
         robot.odometry.update(&telemetry, self.tuning.half_axle);
-        if self.channel.hear(received, lost) {
+        if self.channel.hear(received + 1, lost) {
             self.diagnose(at.steady);
         }
         self.report(at, index, &telemetry, sink);

@@ -1,7 +1,9 @@
 //! Bridge and test bed together: what is wrong on the air or with a motor, and how the bridge names it.
 
-use crate::common::{Loop, Texts};
+use crate::common::{EPOCH, Loop, MS, Texts};
+use trench_config::ParameterValue;
 use trench_config::ParameterValue::String as Text;
+use trench_core::RosTime;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::RunState;
 
@@ -49,6 +51,33 @@ fn a_link_that_loses_much_is_named() {
     let mut both = with_faults(fault!("kind: corrupted"), true);
     both.drive(60, 2, 0.03, 0.0);
     assert!(says(&both, "links").contains("poor link: robot1, robot2"), "{}", says(&both, "links"));
+}
+
+/// How long after it began to be lost, ms, a third of all packets of four robots was named.
+fn third_is_named_after(seed: i64) -> i64 {
+    // At another time of the reports' round each.
+    let begins = 2000 + 7 * seed;
+    let faults = format!("faults:\n- {{from: {}, to: 100.0, kind: loss, loss: 0.3}}\n", begins as f64 * 1e-3);
+    let files = Texts(vec![("faults", faults.leak())]);
+    let testbed = [("faults_file", Text("faults".to_owned())), ("seed", ParameterValue::Integer(seed))];
+    let poses = [0.4, 0.4, 0.0, 0.4, 0.8, 0.0, 0.4, 1.2, 0.0, 0.4, 1.6, 0.0];
+    let mut both = Loop::new(&poses, &[], &testbed, &files);
+    let start = (both.now / MS) as i64;
+    both.run_state(RunState::RUNNING);
+    both.drive(130, 4, 0.03, 0.0);
+    let told: Vec<DiagnosticArray> = both.bridge.published("/diagnostics");
+    let names = |text: &str| text.contains("much is lost") || text.contains("poor link");
+    let first = told.iter().find(|array| array.status.iter().any(|status| names(&status.message)));
+    let since_start = |array: &DiagnosticArray| (RosTime::from(&array.header.stamp).0 - EPOCH) / MS as i64 - start;
+    first.map_or(i64::MAX, |array| since_start(array) - begins)
+}
+
+#[test]
+fn a_third_of_all_packets_lost_is_named_within_half_a_second() {
+    let mut times: Vec<i64> = (1..=40).map(third_is_named_after).collect();
+    times.sort_unstable();
+    // By chance more may come through at first, but never does what is usual look bad.
+    assert!(times[0] > 0 && times[20] <= 350 && times[38] <= 500, "{times:?}");
 }
 
 #[test]

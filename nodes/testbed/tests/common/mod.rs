@@ -15,7 +15,7 @@ use trench_msgs::{Encode, Message};
 pub(crate) const MS: u64 = 1_000_000;
 
 /// The wall clock at monotonic time 0.
-const EPOCH: i64 = 1_577_836_800_000_000_000;
+pub(crate) const EPOCH: i64 = 1_577_836_800_000_000_000;
 
 /// Files by name.
 pub(crate) struct Texts(pub(crate) Vec<(&'static str, &'static str)>);
