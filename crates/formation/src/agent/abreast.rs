@@ -151,7 +151,7 @@ impl<T: Trench> Agent<T> {
             if told & (1 << lane) != 0 {
                 agent.seeker.keep(feet.arc_length[lane]);
                 agent.arrived = deviation.as_array()[lane] <= seeking.settled_distance;
-                agent.last = now;
+                agent.last = Some(now);
             }
         }
         Some(Abreast { told, steered, lyapunov, lyapunov_rate, applied, cut: differs, foot: feet.point, deviation })

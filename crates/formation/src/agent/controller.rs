@@ -25,9 +25,9 @@ pub struct Agent<T> {
     pub(super) encroachers: Option<Box<Encroachers>>,
     /// Whether it has come to its place.
     pub(super) arrived: bool,
-    /// Times of the last action and of the last tick, s; not a number where there was none.
-    pub(super) last: f64,
-    sensed: f64,
+    /// Time of the last action, s.
+    pub(super) last: Option<f64>,
+    sensed: Option<f64>,
 }
 
 impl<T: Trench> Agent<T> {
@@ -35,8 +35,7 @@ impl<T: Trench> Agent<T> {
     pub fn new(settings: AgentSettings<T>) -> Self {
         let (seeker, fragments) = (Seeker::default(), Fragments::default());
         let settings = Arc::new(settings);
-        let (last, sensed) = (f64::NAN, f64::NAN);
-        Self { settings, seeker, remedy: None, fragments, encroachers: None, arrived: false, last, sensed }
+        Self { settings, seeker, remedy: None, fragments, encroachers: None, arrived: false, last: None, sensed: None }
     }
 
     /// What it was made with.
@@ -67,7 +66,7 @@ impl<T: Trench> Agent<T> {
         if let Some(remedy) = &mut self.remedy {
             remedy.pause();
         }
-        self.last = f64::NAN;
+        self.last = None;
     }
 
     /// Arc length of the nearest point that it keeps, m.
@@ -103,8 +102,8 @@ impl<T: Trench> Agent<T> {
     }
 
     fn carry_on(&mut self, around: &Surroundings<'_>) {
-        let elapsed = if self.sensed.is_nan() { 0.0 } else { around.time - self.sensed };
-        self.sensed = around.time;
+        let elapsed = self.sensed.map_or(0.0, |sensed| around.time - sensed);
+        self.sensed = Some(around.time);
         if let Some(remedy) = &mut self.remedy {
             remedy.carry_on(around, elapsed);
         }
@@ -118,9 +117,8 @@ impl<T: Trench> Agent<T> {
     #[inline(always)]
     fn steer_at(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: PointState) -> Action {
         let now = around.time + moment.since;
-        // The greater of a number and none is the number.
-        let step = (now - self.last).max(0.0);
-        self.last = now;
+        let step = self.last.map_or(0.0, |last| (now - last).max(0.0));
+        self.last = Some(now);
         let leader = around.leader.map(|leader| leader.state.coasted(moment.since));
         let attracted = self.attract(around, moment, (robot.position, leader), step);
         self.arrived = attracted.deviation <= self.settings.seeking.settled_distance;

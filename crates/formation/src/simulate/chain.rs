@@ -142,26 +142,11 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         if !self.steps.is_multiple_of(u64::from(self.scenario.steps_per_tick)) {
             return Ok(());
         }
-        // Robots and their deviations are copied back one by one as they act: in between, what is here is old.
-        self.exchange();
+        self.seen.copy_from_slice(&self.robots);
+        self.seen_deviations.copy_from_slice(&self.deviations);
         if let Encroaching::ObstaclesAndPlaces(_) = self.scenario.encroaching {
             self.seen_places.copy_from_slice(&self.places);
         }
-        let looked = self.look_about();
-        if looked.is_err() {
-            self.exchange();
-        }
-        looked
-    }
-
-    /// What is seen of robots for what they are.
-    fn exchange(&mut self) {
-        core::mem::swap(&mut self.seen, &mut self.robots);
-        core::mem::swap(&mut self.seen_deviations, &mut self.deviations);
-    }
-
-    /// What is near the robots now, and which fragments they have.
-    fn look_about(&mut self) -> Result<(), ScenarioError> {
         let moves = self.scenario.moves();
         if moves {
             let time = self.time();
@@ -265,11 +250,6 @@ impl<T: Trench> View<'_, T> {
             later = rest;
             for agent in later.iter().skip(AHEAD).step_by(2).take(2) {
                 agent.call_for(&self.scenario.segment);
-            }
-            if since == 0.0 {
-                let these = first..first + robots.len();
-                robots.copy_from_slice(&self.seen[these.clone()]);
-                deviations.copy_from_slice(&self.seen_deviations[these]);
             }
             let abreast = self.abreast(&settings, &moment, first, agents, robots);
             let several = agents.iter_mut().zip(robots).zip(outcomes.iter_mut().zip(deviations));
