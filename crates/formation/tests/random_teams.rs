@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
+use trench_formation::Vector2;
+use trench_formation::curve::{Curve, CurveShape};
 use trench_formation::simulate::{BODY_RADIUS, CAPABILITY, Standard, Verdict, judge, random_team};
 
 const STANDARD: Standard = Standard { body_radius: BODY_RADIUS, capability: CAPABILITY, tolerance: 0.1 };
@@ -99,6 +101,22 @@ fn teams_that_are_late_touch_nothing() {
     for (seed, verdict) in verdicts(&STILL_LATE) {
         assert!(matches!(verdict, Some(Verdict::Conforms { .. } | Verdict::Late(..))), "seed {seed}: {verdict:?}");
     }
+}
+
+/// A team that cannot do it is told from one that does not: somebody out of reach of its leader, a segment with too few places.
+#[test]
+fn infeasible_teams_are_said_to_be() {
+    let team = (0..).find_map(|seed| random_team(seed).filter(|team| team.robots.len() == 4)).unwrap();
+    let judged = |team| judge(team, &STANDARD).unwrap();
+    let mut apart = team.clone();
+    apart.robots[2].position.x += 99.0;
+    assert_eq!(judged(apart), Verdict::Disconnected(3));
+    // Places are rho_hat = 1 m apart.
+    let (start, end) = (Vector2::zeros(), Vector2::new(2.5, 0.0));
+    let mut short = team;
+    (short.obstacles, short.options.obstacle_velocities) = (Vec::new(), Vec::new());
+    (short.segment, short.team_goal) = (Curve::new(&CurveShape::Line(start, end), false, false).unwrap(), Some(end));
+    assert_eq!(judged(short), Verdict::TooFewPlaces { places: 3 });
 }
 
 #[test]
