@@ -1,11 +1,138 @@
 //! Numbers and vectors of the plane side by side: what one vector instruction does to all of them. Lane by lane the results are
-//! those of scalar code that does the same in the same order, bit for bit.
+//! those of scalar code that does the same in the same order, bit for bit; what is written for any [`Number`] is that code for both.
 use crate::Vector2;
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, BitAnd, Div, Mul, Neg, Sub};
 use wide::f64x4;
 
 /// How many.
 pub(crate) const LANES: usize = 4;
+
+/// A number, or several side by side.
+pub(crate) trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Mul<Self::Vector, Output = Self::Vector>
+{
+    /// As many vectors.
+    type Vector: Plane<Number = Self>;
+    /// As many conditions.
+    type Mask: Copy + BitAnd<Output = Self::Mask>;
+    /// The same everywhere.
+    fn splat(number: f64) -> Self;
+    fn is_below(self, other: Self) -> Self::Mask;
+    fn is_at_most(self, other: Self) -> Self::Mask;
+    /// `self` where `mask` is set, `other` elsewhere.
+    fn or(self, mask: Self::Mask, other: Self) -> Self;
+    /// A function of each.
+    fn each(self, function: impl Fn(f64) -> f64) -> Self;
+    fn root(self) -> Self;
+}
+
+/// A vector of the plane, or several side by side.
+pub(crate) trait Plane: Copy + Add<Output = Self> + Sub<Output = Self> {
+    type Number: Number<Vector = Self>;
+    /// The same everywhere.
+    fn splat(vector: Vector2<f64>) -> Self;
+    fn dot(&self, other: &Self) -> Self::Number;
+
+    #[inline(always)]
+    fn norm_squared(&self) -> Self::Number {
+        Plane::dot(self, self)
+    }
+
+    #[inline(always)]
+    fn norm(&self) -> Self::Number {
+        Plane::norm_squared(self).root()
+    }
+}
+
+impl Number for f64 {
+    type Vector = Vector2<f64>;
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        number
+    }
+
+    #[inline(always)]
+    fn is_below(self, other: Self) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn is_at_most(self, other: Self) -> bool {
+        self <= other
+    }
+
+    #[inline(always)]
+    fn or(self, mask: bool, other: Self) -> Self {
+        if mask { self } else { other }
+    }
+
+    #[inline(always)]
+    fn each(self, function: impl Fn(f64) -> f64) -> Self {
+        function(self)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+}
+
+impl Plane for Vector2<f64> {
+    type Number = f64;
+
+    #[inline(always)]
+    fn splat(vector: Self) -> Self {
+        vector
+    }
+
+    #[inline(always)]
+    fn dot(&self, other: &Self) -> f64 {
+        self.x * other.x + self.y * other.y
+    }
+}
+
+impl Number for f64x4 {
+    type Vector = Vectors;
+    type Mask = Self;
+
+    #[inline(always)]
+    fn splat(number: f64) -> Self {
+        Self::splat(number)
+    }
+
+    #[inline(always)]
+    fn is_below(self, other: Self) -> Self {
+        self.simd_lt(other)
+    }
+
+    #[inline(always)]
+    fn is_at_most(self, other: Self) -> Self {
+        self.simd_le(other)
+    }
+
+    #[inline(always)]
+    fn or(self, mask: Self, other: Self) -> Self {
+        mask.select(self, other)
+    }
+
+    #[inline(always)]
+    fn each(self, function: impl Fn(f64) -> f64) -> Self {
+        Self::new(self.to_array().map(function))
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+}
 
 /// A vector in each lane.
 #[derive(Debug, Clone, Copy)]
@@ -20,36 +147,29 @@ impl Vectors {
         Self { x: f64x4::new(vectors.map(|vector| vector.x)), y: f64x4::new(vectors.map(|vector| vector.y)) }
     }
 
-    /// The same in all lanes.
-    #[inline(always)]
-    pub(crate) fn splat(vector: Vector2<f64>) -> Self {
-        Self { x: f64x4::splat(vector.x), y: f64x4::splat(vector.y) }
-    }
-
     #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Vector2<f64> {
         Vector2::new(self.x.as_array()[lane], self.y.as_array()[lane])
-    }
-
-    #[inline(always)]
-    pub(crate) fn dot(&self, other: &Self) -> f64x4 {
-        self.x * other.x + self.y * other.y
-    }
-
-    #[inline(always)]
-    pub(crate) fn norm_squared(&self) -> f64x4 {
-        self.dot(self)
-    }
-
-    #[inline(always)]
-    pub(crate) fn norm(&self) -> f64x4 {
-        self.norm_squared().sqrt()
     }
 
     /// Lanes of `self` where `mask` is set, of `other` elsewhere.
     #[inline(always)]
     pub(crate) fn or(&self, mask: f64x4, other: &Self) -> Self {
         Self { x: mask.select(self.x, other.x), y: mask.select(self.y, other.y) }
+    }
+}
+
+impl Plane for Vectors {
+    type Number = f64x4;
+
+    #[inline(always)]
+    fn splat(vector: Vector2<f64>) -> Self {
+        Self { x: f64x4::splat(vector.x), y: f64x4::splat(vector.y) }
+    }
+
+    #[inline(always)]
+    fn dot(&self, other: &Self) -> f64x4 {
+        self.x * other.x + self.y * other.y
     }
 }
 

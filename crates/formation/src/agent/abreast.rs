@@ -4,8 +4,8 @@ use super::{Agent, AgentSettings, Encroaching, Method};
 use crate::Vector2;
 use crate::curve::Curve;
 use crate::kinematics::PointState;
-use crate::lanes::{LANES, Vectors, mask};
-use crate::laws::{Push, Steered};
+use crate::lanes::{LANES, Plane, Vectors, mask};
+use crate::laws::{Push, Seen, Steered, Terms, Unpushed};
 use crate::seek::LeaderRule;
 use crate::trench::Trench;
 use wide::f64x4;
@@ -108,19 +108,14 @@ impl<T: Trench> Agent<T> {
         let under_way = f64x4::new(side.deviations).simd_gt(splat(seeking.settled_distance));
         told &= under_way | (leader - feet.point).norm().simd_lt(splat(radii.rho_check));
         // The law.
-        let law = &settings.law;
         let still = Vectors::splat(motion.origin.velocity);
-        let offset = feet.point - position;
-        let deviation = offset.norm();
-        told &= deviation.simd_gt(f64x4::ZERO);
-        let each = |of: &dyn Fn(f64) -> f64| f64x4::new(deviation.to_array().map(of));
-        let pull = (each(&|distance| law.trench.slope(distance)) / deviation) * offset;
-        let sliding = velocity - still;
-        let damping = splat(law.damping);
-        let relative = splat(law.leader_damping) * (leader_velocity - still + still - velocity);
-        let mut steered = Vectors::splat(motion.origin.acceleration) - damping * sliding + relative + pull;
-        let mut lyapunov = 0.5 * sliding.norm_squared() + each(&|distance| law.trench.value(distance));
-        let lyapunov_rate = relative.dot(&sliding) - damping * sliding.norm_squared();
+        let frame = Vectors::splat(motion.origin.acceleration);
+        let Unpushed { acceleration, trench, mut lyapunov, lyapunov_rate } = settings.law.unpushed(&Seen {
+            robot: (position, velocity),
+            foot: [feet.point, still, frame],
+            draws: true,
+            leader_velocity: Some(leader_velocity - still + still),
+        });
         let mut walls = Vectors::splat(Vector2::zeros());
         if !(inner & outer).all() {
             let pushes = core::array::from_fn::<_, LANES, _>(|lane| {
@@ -129,23 +124,18 @@ impl<T: Trench> Agent<T> {
             walls = Vectors::of(pushes.map(|push| push.force));
             lyapunov += f64x4::new(pushes.map(|push| push.value));
         }
-        steered = steered + walls;
+        let steered = acceleration + walls;
         // Limits, where they cut nothing.
-        let frame = Vectors::splat(motion.origin.acceleration);
         let wanted = steered - frame;
         let (mut applied, mut differs) = (steered, 0);
         if let Some(limits) = settings.limits {
-            let most = splat(limits.acceleration * limits.acceleration);
-            let potential = walls + pull;
-            let cut = potential + (wanted - walls - pull);
-            for within in [walls, potential, cut] {
-                told &= within.norm_squared().simd_le(most);
-            }
-            told &= (sliding + splat(step) * cut).norm().simd_le(splat(limits.speed));
+            let terms = Terms { walls, attraction: trench, damping: wanted - walls - trench };
+            let (cut, whole) = limits.whole(velocity - still, &terms, step);
+            told &= whole;
             applied = cut + frame;
             differs = (cut.x.simd_ne(wanted.x) | cut.y.simd_ne(wanted.y)).to_bitmask();
         }
-        let told = told.to_bitmask();
+        let (told, deviation) = (told.to_bitmask(), (feet.point - position).norm());
         let now = side.time + since;
         for (lane, agent) in agents.iter_mut().enumerate() {
             if told & (1 << lane) != 0 {

@@ -6,7 +6,7 @@ use crate::Vector2;
 use crate::curve::Foot;
 use crate::hull::{ApparentObstacle, Approach};
 use crate::kinematics::PointState;
-use crate::laws::{Attraction, NearestAttraction, Push, Steered, ZonedAttraction};
+use crate::laws::{Attraction, NearestAttraction, Push, Seen, Steered, Unpushed, ZonedAttraction};
 use crate::trench::{Damping, Trench};
 
 /// A push within this of straight against the attraction (its sine) is turned by [`SIDESTEP`] (rad).
@@ -95,7 +95,14 @@ impl<T: Trench> Agent<T> {
         let (position, still) = (robot.position, attracting.foot.velocity);
         // Where the segment turns, robots at rest in it have different velocities: compared is what they do in it.
         let alike = leader.map(|leader| leader.velocity - moment.motion.velocity_at(leader.position) + still);
-        let (steered, trench) = law.unpushed(robot, attracting, alike);
+        let seen = Seen {
+            robot: (position, robot.velocity),
+            foot: attracting.foot.into(),
+            draws: attracting.draws,
+            leader_velocity: alike,
+        };
+        let Unpushed { acceleration, trench, lyapunov, lyapunov_rate } = law.unpushed(&seen);
+        let steered = Steered { acceleration, lyapunov, lyapunov_rate };
         let mut sum = Sum { steered, forces: Forces { trench, ..Forces::default() }, powers: Powers::default() };
         for other in around.ahead {
             let there = other.coasted(moment.since);

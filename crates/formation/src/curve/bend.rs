@@ -2,7 +2,7 @@
 use super::arc_table::ArcTable;
 use super::path::Path;
 use super::primitive::{Jet, Primitive};
-use crate::lanes::call_for;
+use crate::lanes::{Number, Plane, call_for};
 use nalgebra::Vector2;
 
 /// A step of third order shorter than this by t leaves less than rounding does.
@@ -85,7 +85,7 @@ impl Bend {
     /// Slopes of half the squared distance at both ends.
     #[inline]
     pub(super) fn slopes(&self, point: Vector2<f64>) -> [f64; 2] {
-        self.ends.each_ref().map(|end| (end.point - point).dot(&end.first))
+        self.ends.each_ref().map(|end| end.slope(point))
     }
 
     /// Arc length from the start of the piece to a parameter of it, m; nothing where that is not known beforehand.
@@ -99,16 +99,14 @@ impl Bend {
     /// Taylor's series, so that most often it is evaluated but once. If that comes to nothing, the bracket of the parameter and a guess.
     #[inline]
     pub(super) fn root(&self, point: Vector2<f64>, slopes: [f64; 2]) -> Result<(f64, Jet), ((f64, f64), f64)> {
-        let ((low, high), guess) = self.guess(point, slopes);
+        let (low, guess) = guess([&self.ends[0], &self.middle.jet, &self.ends[1]], slopes, point);
+        let high = low + 1.0;
         let parameter = |t: f64| self.centre + self.half * t;
         let Some(path) = &self.path else { return Err(((parameter(low), parameter(high)), parameter(guess))) };
         let mut from = guess;
         for _ in 0..3 {
             let (jet, third) = path.at(from);
-            let away = jet.point - point;
-            let (value, slope) = (away.dot(&jet.first), jet.first.norm_squared() + away.dot(&jet.second));
-            let growth = 3.0 * jet.first.dot(&jet.second) + away.dot(&third);
-            let step = -2.0 * value * slope / (2.0 * slope * slope - value * growth);
+            let step = jet.step_of_third_order(third, point);
             let t = from + step;
             if !(low <= t && t <= high) {
                 break;
@@ -118,32 +116,35 @@ impl Bend {
                 if step.abs() < SHORTEST {
                     return Ok((parameter(t), moved));
                 }
-                let away = moved.point - point;
-                let more = -away.dot(&moved.first) / (moved.first.norm_squared() + away.dot(&moved.second));
+                let more = moved.step_of_second_order(point);
                 return Ok((parameter(t + more), moved.moved(more, third)));
             }
             from = t;
         }
         Err(((parameter(low), parameter(high)), parameter(guess)))
     }
+}
 
-    /// Where the slope is about zero: its inverse as the cubic that fits value and slope at both ends of the half that holds the
-    /// zero. That half, and the zero.
-    #[inline]
-    fn guess(&self, point: Vector2<f64>, slopes: [f64; 2]) -> ((f64, f64), f64) {
-        let [start, end] = &self.ends;
-        let middle = &self.middle.jet;
-        let growth = |jet: &Jet| jet.first.norm_squared() + (jet.point - point).dot(&jet.second);
-        let at_middle = (middle.point - point).dot(&middle.first);
-        let forward = at_middle < 0.0;
-        let (low, high, from) = if forward { (middle, end, 0.0) } else { (start, middle, -1.0) };
-        let (below, above) = if forward { (at_middle, slopes[1]) } else { (slopes[0], at_middle) };
-        let rise = above - below;
-        let share = -below / rise;
-        let rest = 1.0 - share;
-        let bend = rise * share * rest * (rest / growth(low) - share / growth(high));
-        ((from, from + 1.0), from + share * share * (3.0 - 2.0 * share) + bend)
-    }
+/// Where the slope is about zero, from `slopes` at both ends: its inverse as the cubic that fits value and slope at both ends of the
+/// half that holds the zero. Where that half begins, and the zero.
+#[inline(always)]
+pub(super) fn guess<V: Plane>(
+    [start, middle, end]: [&Jet<V>; 3],
+    slopes: [V::Number; 2],
+    point: V,
+) -> (V::Number, V::Number) {
+    let number = V::Number::splat;
+    let at_middle = middle.slope(point);
+    let forward = at_middle.is_below(number(0.0));
+    let from = number(0.0).or(forward, number(-1.0));
+    let (below, above) = (at_middle.or(forward, slopes[0]), slopes[1].or(forward, at_middle));
+    let grows = middle.growth(point);
+    let (low, high) = (grows.or(forward, start.growth(point)), end.growth(point).or(forward, grows));
+    let rise = above - below;
+    let share = -below / rise;
+    let rest = number(1.0) - share;
+    let bend = rise * share * rest * (rest / low - share / high);
+    (from, from + share * share * (number(3.0) - number(2.0) * share) + bend)
 }
 
 /// A part of a primitive seen from its middle, with bounds of the derivatives all over it.
@@ -189,7 +190,7 @@ impl Middle {
     pub(super) fn slope_sign(&self, point: Vector2<f64>) -> Option<bool> {
         let away = self.jet.point - point;
         let most_distance = away.norm() + self.half * self.most_speed;
-        let slope = self.jet.first.norm_squared() + away.dot(&self.jet.second);
+        let slope = self.jet.growth(point);
         let change = self.half * (3.0 * self.most_speed * self.second + most_distance * self.third);
         (slope.abs() > change).then_some(slope > 0.0)
     }

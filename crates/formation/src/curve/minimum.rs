@@ -154,7 +154,7 @@ fn by_halves(
 
 /// Whether g is negative at one jet and positive at the other.
 fn changes_sign(low: &Jet, high: &Jet, point: Vector2<f64>) -> bool {
-    (low.point - point).dot(&low.first) < 0.0 && (high.point - point).dot(&high.first) > 0.0
+    low.slope(point) < 0.0 && high.slope(point) > 0.0
 }
 
 fn found_on_circle(
@@ -187,14 +187,13 @@ pub(super) fn solve(primitive: &Primitive, bracket: (f64, f64), start: f64, poin
     let mut u = start.clamp(low, high);
     for _ in 0..60 {
         let jet = primitive.evaluate(u);
-        let away = jet.point - point;
-        let value = away.dot(&jet.first);
+        let value = jet.slope(point);
         if value > 0.0 {
             high = u;
         } else {
             low = u;
         }
-        let newton = u - value / (jet.first.norm_squared() + away.dot(&jet.second));
+        let newton = u - value / jet.growth(point);
         let (next, least) = if newton >= low && newton <= high {
             (newton, tolerance.max(enough))
         } else {

@@ -210,10 +210,7 @@ impl Curve {
         for _ in 0..=count {
             let piece = &self.pieces[index];
             let primitive = &self.primitives[piece.primitive];
-            let slope = |u: f64| {
-                let jet = primitive.evaluate(u);
-                (jet.point - point).dot(&jet.first)
-            };
+            let slope = |u: f64| primitive.evaluate(u).slope(point);
             let forward = slope(parameter) < 0.0;
             let end = if forward { piece.to } else { piece.from };
             if (slope(end) < 0.0) != forward {
@@ -231,7 +228,7 @@ impl Curve {
             let next = if forward { (index + 1) % count } else { (index + count - 1) % count };
             let entry = if forward { self.pieces[next].from } else { self.pieces[next].to };
             let jet = self.primitives[self.pieces[next].primitive].evaluate(entry);
-            if ((jet.point - point).dot(&jet.first) < 0.0) != forward {
+            if (jet.slope(point) < 0.0) != forward {
                 break; // a corner: the distance grows on both sides of it
             }
             (index, parameter) = (next, entry);

@@ -1,5 +1,6 @@
 //! Where a short piece lies, as a polynomial: far less work than its primitive's own functions, and as exact.
 use super::primitive::{Jet, Primitive};
+use core::ops::{Add, Mul};
 use nalgebra::Vector2;
 use wide::f64x2;
 
@@ -70,17 +71,23 @@ impl Path {
     /// Position and three derivatives, all by t.
     #[inline]
     pub(super) fn at(&self, t: f64) -> (Jet, Vector2<f64>) {
-        let t = f64x2::splat(t);
-        let [mut point, mut first, mut second, mut third] = [f64x2::ZERO; 4];
-        for coefficient in self.coefficients[..self.count].iter().rev() {
-            third = t * third + second;
-            second = t * second + first;
-            first = t * first + point;
-            point = t * point + *coefficient;
-        }
+        let terms = self.coefficients[..self.count].iter().rev().copied();
+        let [point, first, second, third] = horner(terms, f64x2::splat(t), f64x2::ZERO);
         let vector = |lanes: f64x2| Vector2::from(lanes.to_array());
         (Jet { point: vector(point), first: vector(first), second: 2.0 * vector(second) }, 6.0 * vector(third))
     }
+}
+
+/// A polynomial whose terms come from the highest power down, and its derivatives: the second halved, the third a sixth.
+#[inline(always)]
+pub(super) fn horner<V, T>(terms: impl Iterator<Item = V>, t: T, zero: V) -> [V; 4]
+where
+    V: Copy + Add<Output = V>,
+    T: Copy + Mul<V, Output = V>,
+{
+    terms.fold([zero; 4], |[point, first, second, third], term| {
+        [t * point + term, t * first + point, t * second + first, t * third + second]
+    })
 }
 
 /// Terms of A cos x + B sin x about x = 0, x = `half` t; a bound of the first that is left out.

@@ -1,6 +1,6 @@
 //! A curve seen from the frame in which its formation moves.
 use super::{Curve, Feet, Foot, Interval, NearestSet, Warm};
-use crate::lanes::{LANES, Vectors};
+use crate::lanes::{LANES, Plane, Vectors};
 use nalgebra::{Isometry2, Vector2};
 use wide::f64x4;
 

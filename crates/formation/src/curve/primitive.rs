@@ -1,13 +1,15 @@
 //! The analytic pieces that curves are made of: value, derivatives, and bounds on the derivatives.
+use crate::lanes::{Number, Plane};
 use nalgebra::Vector2;
 use trench_expression::Expression;
 
-/// Position and its first two derivatives by a parameter: the primitive's own, or another of a constant ratio to it.
+/// Position and its first two derivatives by a parameter: the primitive's own, or another of a constant ratio to it. Of one point or of
+/// several side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Jet {
-    pub(super) point: Vector2<f64>,
-    pub(super) first: Vector2<f64>,
-    pub(super) second: Vector2<f64>,
+pub(super) struct Jet<V = Vector2<f64>> {
+    pub(super) point: V,
+    pub(super) first: V,
+    pub(super) second: V,
 }
 
 impl Jet {
@@ -15,15 +17,45 @@ impl Jet {
     pub(super) fn stretched(self, factor: f64) -> Self {
         Self { first: factor * self.first, second: factor * factor * self.second, ..self }
     }
+}
 
+impl<V: Plane> Jet<V> {
     /// A small step on, by Taylor's series.
-    #[inline]
-    pub(super) fn moved(&self, step: f64, third: Vector2<f64>) -> Self {
+    #[inline(always)]
+    pub(super) fn moved(&self, step: V::Number, third: V) -> Self {
+        let half = V::Number::splat(0.5) * step;
         Self {
-            point: self.point + step * (self.first + 0.5 * step * (self.second + step / 3.0 * third)),
-            first: self.first + step * (self.second + 0.5 * step * third),
+            point: self.point + step * (self.first + half * (self.second + step / V::Number::splat(3.0) * third)),
+            first: self.first + step * (self.second + half * third),
             second: self.second + step * third,
         }
+    }
+
+    /// Slope of half the squared distance from `point`, by the parameter.
+    #[inline(always)]
+    pub(super) fn slope(&self, point: V) -> V::Number {
+        (self.point - point).dot(&self.first)
+    }
+
+    /// How that slope grows.
+    #[inline(always)]
+    pub(super) fn growth(&self, point: V) -> V::Number {
+        self.first.norm_squared() + (self.point - point).dot(&self.second)
+    }
+
+    /// Halley's step to where the slope is zero.
+    #[inline(always)]
+    pub(super) fn step_of_third_order(&self, third: V, point: V) -> V::Number {
+        let (value, slope) = (self.slope(point), self.growth(point));
+        let growth = V::Number::splat(3.0) * self.first.dot(&self.second) + (self.point - point).dot(&third);
+        let two = V::Number::splat(2.0);
+        -two * value * slope / (two * slope * slope - value * growth)
+    }
+
+    /// Newton's step to there.
+    #[inline(always)]
+    pub(super) fn step_of_second_order(&self, point: V) -> V::Number {
+        -self.slope(point) / self.growth(point)
     }
 }
 

@@ -2,6 +2,7 @@
 use super::GoalMotion;
 use crate::Vector2;
 use crate::kinematics::PointState;
+use crate::lanes::{Number, Plane};
 use crate::trench::{ConstantDamping, Damping, Hyperbolic, Trench};
 
 /// u = r_g'' + k(d) d' + Phi'(d) d_hat, d from the robot to the goal point.
@@ -81,7 +82,8 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
 
 /// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
 #[inline]
-pub(crate) fn pull(trench: &impl Trench, offset: Vector2<f64>) -> Vector2<f64> {
-    let distance = offset.norm();
-    if distance == 0.0 { Vector2::zeros() } else { offset * (trench.slope(distance) / distance) }
+pub(crate) fn pull<V: Plane>(trench: &impl Trench, offset: V) -> V {
+    let (distance, none) = (offset.norm(), V::Number::splat(0.0));
+    let factor = distance.each(|distance| trench.slope(distance)) / distance;
+    factor.or(none.is_below(distance), none) * offset
 }

@@ -25,6 +25,7 @@ pub(crate) use goal_tracking::pull;
 pub use goal_tracking::{Capability, GoalTracking, Steered};
 pub use lyapunov::Lyapunov;
 pub use nearest::{Attracting, NearestAttraction};
+pub(crate) use nearest::{Seen, Unpushed};
 pub use nominal::Nominal;
 pub use push::Push;
 pub use queue::QueueFollowing;

@@ -3,6 +3,7 @@ use super::goal_tracking::pull;
 use super::{GoalMotion, Push, Steered};
 use crate::Vector2;
 use crate::kinematics::PointState;
+use crate::lanes::{Number, Plane};
 use crate::trench::Trench;
 
 /// u = r_ns'' + k (r_ns' - r') + Phi'(d) d_hat + sum of the forces of (7.12), with r_ns taken as *fixed in the segment's frame*.
@@ -48,7 +49,10 @@ impl<T: Trench> NearestAttraction<T> {
         leader_velocity: Option<Vector2<f64>>,
         pushes: impl IntoIterator<Item = Push>,
     ) -> Steered {
-        let (mut steered, _) = self.unpushed(robot, attracting, leader_velocity);
+        let Attracting { foot, draws } = attracting;
+        let Unpushed { acceleration, lyapunov, lyapunov_rate, .. } =
+            self.unpushed(&Seen { robot: (robot.position, robot.velocity), foot: foot.into(), draws, leader_velocity });
+        let mut steered = Steered { acceleration, lyapunov, lyapunov_rate };
         for push in pushes {
             steered.acceleration += push.force;
             steered.lyapunov += push.value;
@@ -56,28 +60,49 @@ impl<T: Trench> NearestAttraction<T> {
         steered
     }
 
-    /// [`Self::steer`] without pushes, and Phi' d_hat by itself, which it holds.
-    #[inline]
-    pub(crate) fn unpushed(
-        &self,
-        robot: PointState,
-        attracting: Attracting,
-        leader_velocity: Option<Vector2<f64>>,
-    ) -> (Steered, Vector2<f64>) {
-        let foot = attracting.foot;
-        let sliding = robot.velocity - foot.velocity;
-        let offset = foot.position - robot.position;
-        let relative =
-            leader_velocity.map_or_else(Vector2::zeros, |velocity| self.leader_damping * (velocity - robot.velocity));
-        let mut acceleration = foot.acceleration - self.damping * sliding + relative;
-        let mut lyapunov = 0.5 * sliding.norm_squared();
-        let mut trench = Vector2::zeros();
-        if attracting.draws {
+    /// [`Self::steer`] without pushes, for one robot or several side by side.
+    #[inline(always)]
+    pub(crate) fn unpushed<V: Plane>(&self, seen: &Seen<V>) -> Unpushed<V> {
+        let (number, none) = (V::Number::splat, V::splat(Vector2::zeros()));
+        let ((position, velocity), [foot, foot_velocity, foot_acceleration]) = (seen.robot, seen.foot);
+        let (sliding, offset) = (velocity - foot_velocity, foot - position);
+        let relative = seen.leader_velocity.map_or(none, |leader| number(self.leader_damping) * (leader - velocity));
+        let mut acceleration = foot_acceleration - number(self.damping) * sliding + relative;
+        let mut lyapunov = number(0.5) * sliding.norm_squared();
+        let mut trench = none;
+        if seen.draws {
             trench = pull(&self.trench, offset);
-            acceleration += trench;
-            lyapunov += self.trench.value(offset.norm());
+            acceleration = acceleration + trench;
+            lyapunov = lyapunov + offset.norm().each(|distance| self.trench.value(distance));
         }
-        let lyapunov_rate = relative.dot(&sliding) - self.damping * sliding.norm_squared();
-        (Steered { acceleration, lyapunov, lyapunov_rate }, trench)
+        let lyapunov_rate = relative.dot(&sliding) - number(self.damping) * sliding.norm_squared();
+        Unpushed { acceleration, trench, lyapunov, lyapunov_rate }
+    }
+}
+
+/// What the law looks at, of one robot or of several side by side; m, m/s, m/s^2.
+pub(crate) struct Seen<V> {
+    /// Position and velocity.
+    pub(crate) robot: (V, V),
+    /// See [`Attracting::foot`]: position, velocity and acceleration.
+    pub(crate) foot: [V; 3],
+    /// See [`Attracting::draws`].
+    pub(crate) draws: bool,
+    pub(crate) leader_velocity: Option<V>,
+}
+
+/// What it says.
+pub(crate) struct Unpushed<V: Plane> {
+    pub(crate) acceleration: V,
+    /// Phi' d_hat, which the acceleration holds.
+    pub(crate) trench: V,
+    pub(crate) lyapunov: V::Number,
+    pub(crate) lyapunov_rate: V::Number,
+}
+
+impl From<GoalMotion> for [Vector2<f64>; 3] {
+    #[inline(always)]
+    fn from(GoalMotion { position, velocity, acceleration }: GoalMotion) -> Self {
+        [position, velocity, acceleration]
     }
 }

@@ -1,16 +1,17 @@
 //! What bounded actuators leave of a law that comes from a potential (9.2).
 use super::Capability;
 use crate::Vector2;
+use crate::lanes::{Number, Plane};
 
-/// The terms of a law relative to the segment, m/s^2: what comes from potentials, and the rest.
+/// The terms of a law relative to the segment, m/s^2: what comes from potentials, and the rest. Of one robot, or of several side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Terms {
+pub struct Terms<V = Vector2<f64>> {
     /// Repulsion and attraction of zones and obstacles.
-    pub walls: Vector2<f64>,
+    pub walls: V,
     /// Phi' d_hat of the trench.
-    pub attraction: Vector2<f64>,
+    pub attraction: V,
     /// -k r' and what else takes power out.
-    pub damping: Vector2<f64>,
+    pub damping: V,
 }
 
 impl Capability {
@@ -22,6 +23,10 @@ impl Capability {
     /// potential forces alone fit the acceleration: [`Self::fits`]. Otherwise the attraction gives way next, and walls last.
     #[inline]
     pub fn saturate(&self, velocity: Vector2<f64>, terms: Terms, step: f64) -> Vector2<f64> {
+        let (whole, fits) = self.whole(velocity, &terms, step);
+        if fits {
+            return whole;
+        }
         let fits = terms.walls.norm_squared() <= self.acceleration * self.acceleration;
         let walls = if fits { terms.walls } else { terms.walls.cap_magnitude(self.acceleration) };
         let potential = self.extended(walls, terms.attraction);
@@ -29,6 +34,17 @@ impl Capability {
         let next = velocity + step * wanted;
         // A robot that is within the speed already comes to it by less than the acceleration: the speeds form a convex disc.
         if next.norm() <= self.speed { wanted } else { self.admit(velocity, wanted, step) }
+    }
+
+    /// The law as it stands, and whether nothing of it gives way.
+    #[inline(always)]
+    pub(crate) fn whole<V: Plane>(&self, velocity: V, terms: &Terms<V>, step: f64) -> (V, <V::Number as Number>::Mask) {
+        let number = V::Number::splat;
+        let potential = terms.walls + terms.attraction;
+        let whole = potential + terms.damping;
+        let fits = |force: V| force.norm_squared().is_at_most(number(self.acceleration * self.acceleration));
+        let next = velocity + number(step) * whole;
+        (whole, fits(terms.walls) & fits(potential) & fits(whole) & next.norm().is_at_most(number(self.speed)))
     }
 
     /// Whether potential forces of these largest magnitudes (m/s^2), all in one direction, fit the acceleration.
