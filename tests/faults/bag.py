@@ -53,6 +53,8 @@ class Run:
         self.commands: dict[str, Series] = {}
         # What the latest command up to then rests on: its stamp, s.
         self.basis: dict[str, Series] = {}
+        # Ages of images that came, s.
+        self.images = Series()
         self.goals = Series()
         self.team = Series()
         self.diagnostics: list[tuple[float, str, bytes]] = []
@@ -93,6 +95,8 @@ class Run:
             stamp = self._time(message.header.stamp, at)
             # What is from the future comes from nobody of ours.
             basis.add(at, max(stamp if stamp <= at else 0.0, basis.values[-1] if basis.values else 0.0))
+        elif parts[-1] == "image_raw":
+            self.images.add(at, at - self._time(message.header.stamp, at))
         elif topic == "/goals":
             if message.epoch < FOREIGN_EPOCH:
                 goals = {goal.robot: (goal.position.x, goal.position.y) for goal in message.goals}

@@ -7,8 +7,10 @@ import sys
 from pathlib import Path
 
 # Where hosts run and how their nodes reach one another: `dds`, all on one network; `zenoh`, base station and robots in two
-# networks, which a router alone joins.
-BASE, GATE = "base", "gate"
+# networks, which a router alone joins; `radio`, all but the bridge on one host, by Zenoh through a router on either.
+BASE, GATE, RADIO = "base", "gate", "radio"
+# How the base station's router joins the radio's over a slow link (docs/hosts.md): little between its queues and the wire.
+SLOW = 'transport/link/tx/batch_size=600;connect/endpoints=["tcp/10.77.0.2:7447#so_sndbuf=1"]'
 INTERFACE = "eth0"
 
 
@@ -19,7 +21,7 @@ class Hosts:
         self.kind, self.prefix = kind, f"tf{os.getpid()}"
         self.switches: list[subprocess.Popen] = []
         self.of_link: dict[str, subprocess.Popen] = {}
-        self.names = [BASE, *robots, *([GATE] if kind == "zenoh" else [])]
+        self.names = [BASE, RADIO] if kind == RADIO else [BASE, *robots, *([GATE] if kind == "zenoh" else [])]
         try:
             for name in self.names:
                 ip("netns", "add", self.namespace(name))
@@ -27,8 +29,8 @@ class Hosts:
                 # As docs/hosts.md has it for Zenoh; older kernels do not know it.
                 limit = "f=/proc/sys/net/ipv4/tcp_rto_max_ms; [ ! -e $f ] || echo 1000 > $f"
                 subprocess.run([*self.command(name), "sh", "-c", limit], check=True)
-            if kind == "dds":
-                self._network(seed, "10.77.0", INTERFACE, [BASE, *robots])
+            if kind != "zenoh":
+                self._network(seed, "10.77.0", INTERFACE, self.names)
             else:
                 self._network(seed, "10.78.0", INTERFACE, [BASE, GATE])
                 self._network(seed + 1, "10.79.0", "eth1", [GATE, *robots])
@@ -61,6 +63,8 @@ class Hosts:
     def environment(self, host: str) -> dict[str, str]:
         """What a process there must know: hosts share no memory, and by Zenoh all go through the router."""
         own = {"TRENCH_SHM_PREFIX": f"{self.prefix}{host}_"}
+        if self.kind == RADIO:
+            own["RMW_IMPLEMENTATION"] = "rmw_zenoh_cpp"
         if self.kind == "zenoh":
             network = "10.78.0" if host == BASE else "10.79.0"
             own["RMW_IMPLEMENTATION"] = "rmw_zenoh_cpp"

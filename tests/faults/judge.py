@@ -44,6 +44,7 @@ class Evidence:
     alive_after: float | None
     own_bag: Path
     binaries: Path
+    seen: Path
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -91,6 +92,11 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
     if "bag" in fault and (lost := lost_at(evidence, began)) > GAP:
         verdict.problems.append(f"the bag ends {lost:.1f} s before the fault")
+    if "images" in fault:
+        came = [at for at, _ in Run(evidence.seen).images.between(began, ended)]
+        waits = [later - earlier for earlier, later in zip([began, *came], [*came, ended])]
+        if max(waits) > fault["images"]:
+            verdict.problems.append(f"no image came for {max(waits):.1f} s")
     stopped = sorted(bag.truth) if fault.get("stops") else fault.get("halts", [])
     if stopped:
         verdict.stood = standstill(bag, stopped, began, ended)
@@ -169,11 +175,11 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: boo
         verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 
-def stale(bag: Run) -> list[str]:
-    """Robots that move although all that their commands rest on is too old: 0.25 s, and the time to brake."""
+def stale(bag: Run, heard: dict[str, Series]) -> list[str]:
+    """Robots that move although all that their commands rest on, as they were heard, is too old: 0.25 s, and the time to brake."""
     problems = []
     for robot, series in bag.truth.items():
-        basis = bag.basis.get(robot, Series())
+        basis = heard.get(robot, Series())
         for at, state in series.between(bag.t0 or math.inf, bag.stopped or math.inf):
             newest = basis.at(at)
             if state[2] > STANDS and (newest is None or at - newest > STANDSTILL):
@@ -202,7 +208,7 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
-    problems += stale(bag)
+    problems += stale(bag, Run(evidence.seen).basis if evidence.seen.exists() else bag.basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")

@@ -1,5 +1,6 @@
 """A formation as processes, on this host or on several, and the recorder whose bag is judged."""
 
+import json
 import os
 import re
 import shutil
@@ -7,17 +8,26 @@ import signal
 import struct
 import subprocess
 import sys
+import time
+import zlib
+from collections.abc import Callable
 from pathlib import Path
 
 import yaml
 
-from hosts import BASE, GATE, Hosts
+from hosts import BASE, GATE, RADIO, SLOW, Hosts
 
 ROOT = Path(__file__).resolve().parents[2]
 # Nothing that a run waits for takes longer, s.
 PATIENCE = 60.0
 # A file system in memory.
 MEMORY = Path("/dev/shm")
+# What a viewer on another host sees, and its pixels: 9 kB an image.
+IMAGES, PICTURE = "/side/image_raw", (64, 48)
+# Where a Zenoh router listens.
+ROUTER = 7447
+# Topics of what robots report.
+REPORTS = r"/robot\d/(link|battery_state|wheel_odom|range_\d)"
 ROBOTS = ["robot1", "robot2", "robot3", "robot4"]
 
 
@@ -42,6 +52,32 @@ class Line:
         self.process.wait(PATIENCE)
 
 
+def picture(width: int, height: int) -> bytes:
+    """A grey PNG."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    rows = zlib.compress((b"\0" + b"\x80" * 3 * width) * height)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+def listens(pid: int, port: int) -> bool:
+    """Whether somebody in the network of this process takes connections."""
+    tables = [Path(f"/proc/{pid}/net/{family}").read_text(encoding="ascii") for family in ("tcp", "tcp6")]
+    return any(f":{port:04X} " in table for table in tables)
+
+
+def wait_for(holds: Callable[[], bool]) -> None:
+    """Until it holds."""
+    deadline = time.monotonic() + PATIENCE
+    while not holds():
+        if time.monotonic() > deadline:
+            raise TimeoutError("what a run waits for did not come")
+        time.sleep(0.02)
+
+
 class Launched:
     """A formation with a domain, shared memory, state folders and serial port of its own."""
 
@@ -52,6 +88,9 @@ class Launched:
         self.hosts = Hosts(run["hosts"], ROBOTS, seed) if "hosts" in run else None
         self.launchers: dict[str, subprocess.Popen] = {}
         self.recorder, self.line, self.disk = None, None, None
+        # What runs beside the launch, and what somebody on another host saw.
+        self.beside: list[subprocess.Popen] = []
+        self.seen = folder / "seen"
         self.clocks = run.get("clocks", False)
         self.own_bag = folder / "own-bag"
         try:
@@ -63,6 +102,11 @@ class Launched:
     def _start(self, run: dict, seed: int) -> None:
         if self.hosts and self.hosts.kind == "zenoh":
             self.launch(GATE, "router")
+        if self.hosts and self.hosts.kind == RADIO:
+            self.beside.append(self.start(RADIO, "trench", "router"))
+            # A router that finds nobody tries again later and later.
+            wait_for(lambda: listens(self.beside[0].pid, ROUTER))
+            self.beside.append(self.start(BASE, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW}))
         bed = [fault["bed"] for fault in run["faults"] if "bed" in fault]
         faults = self.folder / "faults.yaml"
         faults.write_text(yaml.safe_dump({"faults": bed}))
@@ -82,16 +126,39 @@ class Launched:
             **({"faults": str(faults)} if bed else {}),
             **({"key": str(self._make_key())} if run.get("key") else {}),
             **({"bridge_port": str(self.folder / "plug")} if self.line else {}),
-            **({"controllers": "false"} if self.hosts else {}),
+            **({} if not self.hosts else {"bridge": "false"} if self.hosts.kind == RADIO else {"controllers": "false"}),
         }
+        # Over a slow link nobody records what robots report.
+        left_out = ["-p", f"exclude_regex:={REPORTS}"] if self.hosts and self.hosts.kind == RADIO else []
         self.recorder = self.start(
             BASE, "bag_recorder", "--ros-args", "-r", "__node:=judge", "-p", f"output:={self.folder / 'bag'}",
-            "-p", f"robots:=[{', '.join(ROBOTS)}]", true_clock=True,
+            "-p", f"robots:=[{', '.join(ROBOTS)}]", *left_out, true_clock=True,
         )
         self.launch(BASE, run["launch"], **arguments)
-        if self.hosts:
+        if self.hosts and self.hosts.kind == RADIO:
+            self.launch(
+                RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "port"), read_best_effort='["*"]'
+            )
+            self._look()
+        elif self.hosts:
             for robot in ROBOTS:
                 self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
+
+    def _look(self) -> None:
+        """A small camera on the base station, and somebody on the radio's host who records it, and what commands come there."""
+        pictures = self.folder / "pictures"
+        pictures.mkdir()
+        (pictures / "floor.png").write_bytes(picture(*PICTURE))
+        self.beside.append(self.start(
+            BASE, "overhead_camera", "--ros-args", "-r", "__node:=side_camera", "-r", f"/overhead/image_raw:={IMAGES}",
+            "-p", "source:=folder", "-p", f"path:={pictures}", "-p", "rate:=10.0", "-p", "repeat:=true",
+            "-p", f"publish_over_network:=[{IMAGES}]", "-p", "network_rate:=25000.0",
+        ))
+        topics = [f"{IMAGES}:sensor_msgs/msg/Image", *(f"/{robot}/cmd_vel:geometry_msgs/msg/TwistStamped" for robot in ROBOTS)]
+        self.beside.append(self.start(
+            RADIO, "bag_recorder", "--ros-args", "-r", "__node:=viewer", "-p", f"output:={self.seen}",
+            "-p", f"topics:=[{', '.join(map(json.dumps, topics))}]", "-p", 'read_best_effort:=["*"]',
+        ))
 
     def launch(self, host: str, file: str, **arguments: str) -> None:
         """Starts a launch file on a host."""
@@ -127,11 +194,13 @@ class Launched:
         with open(path, "r+b" if path.exists() else "wb") as clock:
             clock.write(struct.pack("<q", int(hours * 3.6e12)))
 
-    def start(self, host: str, program: str, *arguments: str, true_clock: bool = False) -> subprocess.Popen:
+    def start(
+        self, host: str, program: str, *arguments: str, true_clock: bool = False, variables: dict[str, str] | None = None
+    ) -> subprocess.Popen:
         """Starts a program of ours on a host."""
         command = [*(self.hosts.command(host) if self.hosts else []), str(self.binaries / program), *arguments]
         with open(self.folder / f"{host}-{program}.log", "a", encoding="utf-8") as log:
-            return subprocess.Popen(command, env=self.environment(host, true_clock), stdout=log, stderr=log, cwd=ROOT)
+            return subprocess.Popen(command, env=self.environment(host, true_clock) | (variables or {}), stdout=log, stderr=log, cwd=ROOT)
 
     def shared_memory(self) -> str:
         """With what the names of its shared memory begin."""
@@ -203,7 +272,7 @@ class Launched:
 
     def end(self) -> None:
         """Ends whatever still runs, and forgets what it shared."""
-        left = [*self.launchers.values(), *([self.recorder] if self.recorder else [])]
+        left = [*self.launchers.values(), *self.beside, *([self.recorder] if self.recorder else [])]
         for process in left:
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)

@@ -8,7 +8,8 @@ JSON: the namespaces whose links change and how they are from then on, both ways
     {"links": ["a"], "cut": "both"}                                      "to" the host, "from" it, or "both"
     {"links": ["a", "b"], "loss": 0.3}                                   share of frames lost, each way
     {"links": ["a"], "delay": 0.1, "jitter": 0.05, "duplicate": 0.1}     s; with jitter frames overtake each other
-    {"links": ["a"], "rate": 256000}                                     bit/s; what is marked as urgent goes first
+    {"links": ["a"], "rate": 256000}                                     bit/s; what is marked as urgent goes first, what is marked
+                                                                         as less (DSCP CS1) last, as Wi-Fi has it
     {"links": ["a"]}                                                     well again
 
 The kernel here may lack netem; a TAP interface and a loop do all of it and repeat by their seed.
@@ -29,10 +30,10 @@ from collections import deque
 
 TUNSETIFF, IFF_TAP, IFF_NO_PI = 0x400454CA, 0x0002, 0x1000
 CLONE_NEWNET = 0x40000000
-# bytes that wait for a slow link, in each of its two queues: a fifth of a second at 256 kbit/s.
+# bytes that wait for a slow link, in each of its queues: a fifth of a second at 256 kbit/s.
 QUEUE = 6400
-# The first three bits of DSCP from which a frame is urgent (CS4, interactive control, and above).
-URGENT = 4
+# The first three bits of DSCP from which a frame is urgent (CS4, interactive control, and above), and of what may wait (CS1).
+URGENT, LESS = 4, 1
 
 
 def tap(namespace: str, interface: str) -> int:
@@ -57,7 +58,7 @@ class Way:
 
     def __init__(self, deliver, chance: random.Random, agenda: list):
         self.deliver, self.chance, self.agenda = deliver, chance, agenda
-        self.queues, self.waiting, self.busy = (deque(), deque()), [0, 0], False
+        self.queues, self.waiting, self.busy = (deque(), deque(), deque()), [0, 0, 0], False
         self.state: dict = {}
         self.cut = False
 
@@ -82,8 +83,8 @@ class Way:
 
     def _queue(self, frame: bytes, now: float) -> None:
         # EtherType IPv4; the second byte of its header is the mark.
-        urgent = frame[12:14] == b"\x08\x00" and frame[15] >> 5 >= URGENT
-        number = 0 if urgent else 1
+        mark = frame[15] >> 5 if frame[12:14] == b"\x08\x00" else 0
+        number = 0 if mark >= URGENT else 2 if mark == LESS else 1
         if self.waiting[number] + len(frame) > QUEUE:
             return
         self.waiting[number] += len(frame)
@@ -92,7 +93,7 @@ class Way:
             self._next(now)
 
     def _next(self, now: float) -> None:
-        number = next((number for number in (0, 1) if self.queues[number]), None)
+        number = next((number for number, queue in enumerate(self.queues) if queue), None)
         self.busy = number is not None
         if number is None:
             return

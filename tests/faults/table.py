@@ -22,7 +22,8 @@ the worst of all seeds that were run:
   next fault begins.
 
 Runs named *hosts* have the base station and each robot's controller on hosts of their own (network namespaces), by DDS on
-one network, or by Zenoh through a router between two ([hosts.md](hosts.md)).
+one network, or by Zenoh through a router between two ([hosts.md](hosts.md)); in *hosts-radio* the bridge alone is on a host of its own,
+with somebody who looks through a camera, and commands count as old as they are there.
 
 | fault | run | diagnostic, s | still, s | driven, s | formed, s | verdict | seeds | date (UTC) |
 |---|---|---|---|---|---|---|---|---|
