@@ -17,6 +17,12 @@ fn parameters() -> Vec<ParameterDescriptor> {
     vec![
         ParameterDescriptor::string("role", "probe", "source or probe").read_only(),
         ParameterDescriptor::bool("shared_memory", true, "whether the source uses it").read_only(),
+        ParameterDescriptor::bool(
+            "network",
+            true,
+            "whether shared memory's messages go over the network, too: images do not",
+        )
+        .read_only(),
         ParameterDescriptor::bool("best_effort", false, "messages may be lost, as images may").read_only(),
         ParameterDescriptor::integer("bytes", 12, "length of a message: a stamp and zeros")
             .range(12.0, 1.0e7)
@@ -36,8 +42,11 @@ fn parameters() -> Vec<ParameterDescriptor> {
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let topic = "/stamps".to_owned();
     let bytes = parameters.usize("bytes")?;
-    let local =
-        if parameters.bool("shared_memory")? { Local::SharedMemory { max_len: bytes } } else { Local::NetworkOnly };
+    let local = match (parameters.bool("shared_memory")?, parameters.bool("network")?) {
+        (true, true) => Local::SharedMemory { max_len: bytes },
+        (true, false) => Local::SharedMemoryOnly { max_len: bytes },
+        (false, _) => Local::NetworkOnly,
+    };
     let mut interface = Interface::default();
     let qos = if parameters.bool("best_effort")? { Qos::SENSOR } else { Qos::RELIABLE };
     let source = parameters.str("role")? == "source";
