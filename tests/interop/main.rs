@@ -100,17 +100,13 @@ fn team_state_is_sensible(messages: &[Value]) {
 }
 
 fn late_joiners_get_latched_topics(island: &Island) {
-    let latched = |topic: &str| {
-        let answer = island.ask("peer_echo.py", &format!("{topic} --qos reliable,transient_local,1"));
-        answer["messages"][0].clone()
-    };
-    let formation = latched("/formation trench_msgs/msg/Formation");
+    let formation = island.latched("/formation trench_msgs/msg/Formation");
     assert_eq!((&formation["name"], &formation["header"]["frame_id"]), (&json!("square"), &json!("map")));
     assert_eq!(formation["queues"][1]["vertices"][1], json!({"x": 2.075, "y": 1.3}));
-    let assignment = latched("/assignment trench_msgs/msg/Assignment");
+    let assignment = island.latched("/assignment trench_msgs/msg/Assignment");
     assert_eq!(assignment["formation_hash"], formation["hash"]);
     assert_eq!(assignment["members"].as_array().unwrap().len(), 4);
-    let run = latched("/run_state trench_msgs/msg/RunState");
+    let run = island.latched("/run_state trench_msgs/msg/RunState");
     assert_eq!((&run["state"], &run["epoch"]), (&json!(2), &assignment["epoch"]), "running: {run}");
     let lines =
         island.ask("peer_echo.py", "/rosout rcl_interfaces/msg/Log --qos reliable,transient_local,100 --count 5");

@@ -31,8 +31,8 @@ fn interop_rclpy_operates_and_stops_the_robots() {
     assert_eq!(assignment("arm"), (false, "cannot arm: the run is stopped, it must be idle (call reset first)".into()));
     assert!(assignment("reset").0);
     assert!(assignment("arm").0);
-    let run = island.ask("peer_echo.py", "/run_state trench_msgs/msg/RunState --qos reliable,transient_local,1");
-    assert_eq!(run["messages"][0]["state"], 1, "armed: {run}");
+    let run = island.latched("/run_state trench_msgs/msg/RunState");
+    assert_eq!(run["state"], 1, "armed: {run}");
     let (code, said) = launch.interrupt();
     assert_eq!(code, Some(0), "{said}");
 }

@@ -13,6 +13,7 @@ def main() -> None:
     arguments.add_argument("type", help="for example nav_msgs/msg/Odometry")
     arguments.add_argument("--qos", type=peer.qos, default="best_effort,volatile,10", help="reliability,durability,depth")
     arguments.add_argument("--count", type=int, default=1, help="how many messages to wait for")
+    arguments.add_argument("--settle", type=float, default=0.0, help="s to go on listening; the last messages count")
     arguments.add_argument("--follow", action="store_true", help="print each message as it comes, until SIGINT or SIGTERM")
     given = arguments.parse_args()
     messages, times = [], []
@@ -31,6 +32,8 @@ def main() -> None:
             return
         if not peer.spin_until(node, lambda: len(messages) >= given.count, given.timeout):
             peer.fail(f"{len(messages)} of {given.count} messages on {given.topic} within {given.timeout} s")
+        peer.spin_until(node, lambda: False, given.settle)
+        messages = messages[-given.count :]
         rate = (len(times) - 1) / (times[-1] - times[0]) if times[-1] > times[0] else None
         peer.report({"topic": given.topic, "type": given.type, "rate": rate, "messages": messages})
 

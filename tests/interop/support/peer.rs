@@ -18,6 +18,13 @@ impl Island {
         serde_json::from_slice(&output.stdout).unwrap()
     }
 
+    /// What a latched topic, given with its type, says to one that comes late. RustDDS clears a writer's history every few seconds:
+    /// until then older messages come before the last.
+    pub(crate) fn latched(&self, topic: &str) -> Value {
+        let answer = self.ask("peer_echo.py", &format!("{topic} --qos reliable,transient_local,1 --settle 0.5"));
+        answer["messages"][0].clone()
+    }
+
     /// Listens to a topic, given with its type and, where it matters, `--qos`.
     pub(crate) fn follow(&self, topic: &str) -> Follower {
         Follower(Peer::start(self, "peer_echo.py", &format!("{topic} --follow")))
