@@ -31,6 +31,8 @@ fn what_is_shipped_holds() {
     judged("column.txt", &["launch/column.launch.yaml"], 0);
     judged("wings.txt", &["config/formations/wings.yaml", "config/profiles/chain.yaml"], 0);
     judged("triangle_thesis.txt", &["launch/triangle.launch.yaml", "profile:=thesis"], 0);
+    // The scenario that names the same launch file with the same argument.
+    judged("triangle_thesis.txt", &["config/scenarios/4.6_triangle.yaml"], 0);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::super::launch::name_and_value;
 use super::kind;
 use super::kind::Kind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use trench_check::{Controller, Team, team};
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
@@ -11,7 +11,7 @@ use trench_core::Files;
 use trench_harness::{Disk, LoadError, catalog};
 use trench_launch::Process;
 use trench_plan::Plan;
-use trench_scenario::Scenario;
+use trench_scenario::{Scenario, Task};
 
 /// A file that cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -48,24 +48,34 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
     let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
     let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
-    let mut parameter_files: Vec<(String, String)> = Vec::new();
+    let (mut parameter_files, mut launches): (Vec<(String, String)>, Vec<(PathBuf, Vec<_>)>) = Default::default();
     for path in files {
         let name = path.display().to_string();
         let text = Disk.read("FILE", &name)?;
         match kind(&name, &text)? {
             Kind::Formation => formations.push((name.clone(), trench_plan::parse(&name, &text)?)),
             Kind::Parameters => parameter_files.push((name, text)),
-            Kind::Scenario => scenarios.push((name.clone(), trench_scenario::parse(&name, &text)?)),
-            Kind::Launch => {
-                let known: Vec<String> =
-                    trench_launch::arguments(path)?.into_iter().map(|argument| argument.name).collect();
-                unknown.retain(|name| !known.contains(name));
-                let launched = launch(path, arguments.iter().filter(|(name, _)| known.contains(name)))?;
-                controllers.extend(launched.controllers);
-                formations.extend(launched.formations);
-                robots = launched.robots.or(robots);
+            Kind::Scenario => {
+                let scenario = trench_scenario::parse(&name, &text)?;
+                match &scenario.task {
+                    Task::Launch(task) => {
+                        let file = path.parent().unwrap_or(Path::new("")).join(&task.file);
+                        launches.push((file, task.arguments.clone()));
+                    }
+                    _ => scenarios.push((name.clone(), scenario)),
+                }
             }
+            Kind::Launch => launches.push((path.to_owned(), Vec::new())),
         }
+    }
+    for (file, own) in launches {
+        let known: Vec<String> = trench_launch::arguments(&file)?.into_iter().map(|argument| argument.name).collect();
+        unknown.retain(|name| !known.contains(name));
+        // What the command line says comes later, and wins.
+        let launched = launch(&file, own.iter().chain(arguments.iter().filter(|(name, _)| known.contains(name))))?;
+        controllers.extend(launched.controllers);
+        formations.extend(launched.formations);
+        robots = launched.robots.or(robots);
     }
     if let Some(name) = unknown.first() {
         return Err(CheckError::Argument((*name).clone()));

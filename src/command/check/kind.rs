@@ -20,6 +20,10 @@ pub(super) enum Kind {
 pub(super) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
     let root = yaml::parse(file, text)?;
     let map = root.map()?;
+    // Before launch files: a scenario may name one.
+    if map.opt_node("kind").is_some() && !has_parameters(&root) {
+        return Ok(Kind::Scenario);
+    }
     if map.opt_node("launch").is_some() {
         return Ok(Kind::Launch);
     }
@@ -28,9 +32,6 @@ pub(super) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
     }
     if has_parameters(&root) {
         return Ok(Kind::Parameters);
-    }
-    if map.opt_node("kind").is_some() {
-        return Ok(Kind::Scenario);
     }
     Err(ConfigError {
         origin: Origin::new(file, 0),
@@ -64,6 +65,7 @@ mod tests {
         check("/**/testbed:\n  ros__parameters: {plant: ideal}\n", Kind::Parameters);
         check("/robot1:\n  formation_controller:\n    ros__parameters: {law: robust}\n", Kind::Parameters);
         check("name: a\nkind: regulation\n", Kind::Scenario);
+        check("name: a\nkind: launch\nlaunch: b.yaml\n", Kind::Scenario);
         let error = kind("a.yaml", "camera: 1\n").unwrap_err().to_string();
         assert!(error.starts_with("a.yaml: is no formation (queues:)"), "{error}");
     }
