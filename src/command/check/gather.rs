@@ -48,7 +48,9 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
     let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
     let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
-    let (mut parameter_files, mut launches): (Vec<(String, String)>, Vec<(PathBuf, Vec<_>)>) = Default::default();
+    let mut parameter_files: Vec<(String, String)> = Vec::new();
+    // With the arguments that scenarios give them.
+    let mut launches: Vec<(PathBuf, Vec<(String, String)>)> = Vec::new();
     for path in files {
         let name = path.display().to_string();
         let text = Disk.read("FILE", &name)?;
