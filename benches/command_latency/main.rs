@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! cargo build --release --workspace --bins && cargo bench --bench command_latency
+//! cargo bench --bench command_latency -- together:=true      arguments of the launch file
 //! ```
 //!
 //! Starts `launch/square.launch.yaml` as `trench launch` does, with one process more: a [`probe`] that sits in the serial
@@ -32,6 +33,8 @@ enum BenchError {
 
 fn main() -> ExitCode {
     if std::env::args().any(|argument| argument == "--ros-args") {
+        // As the bridge whose bytes it hands on: what waits here for the processor would not on a real line.
+        trench_runtime::wait_turn(trench_runtime::Turn::Bridge);
         return trench_runtime::run(probe::DESCRIPTION);
     }
     match launch() {
@@ -69,10 +72,13 @@ fn resolve(programs: &Path, folder: &Path) -> Result<Plan, BenchError> {
     if !environment.contains_key("ROS_DOMAIN_ID") {
         additions.insert("ROS_DOMAIN_ID".to_owned(), "92".to_owned());
     }
-    let arguments = BTreeMap::from([
+    let mut arguments = BTreeMap::from([
         ("port".to_owned(), line(folder).display().to_string()),
         ("duration".to_owned(), SECONDS.to_owned()),
     ]);
+    let given = std::env::args()
+        .filter_map(|argument| argument.split_once(":=").map(|(name, value)| (name.to_owned(), value.to_owned())));
+    arguments.extend(given);
     Ok(trench_launch::resolve(&Request {
         file: &Path::new(env!("CARGO_MANIFEST_DIR")).join("launch/square.launch.yaml"),
         arguments: &arguments,
