@@ -4,8 +4,10 @@
 //! inside of branches of hyperbolas about P where P is to be nearer by some length. So a point of the curve that is nearer to all four
 //! corners of a square than a piece is proves that the piece is nearest to nothing in it.
 use super::piece::Piece;
+use crate::lanes::{LANES, Plane, Vectors};
 use core::ops::Range;
 use nalgebra::Vector2;
+use wide::f64x4;
 
 /// Squares of the grid for each piece, and at most.
 const SQUARES: usize = 8;
@@ -78,7 +80,7 @@ struct Builder<'a> {
     /// What can be nearest in the parts under way, the smallest last.
     pending: Vec<u32>,
     /// Distances of the pieces that are looked at from the corners of a part.
-    distances: Vec<[f64; 4]>,
+    distances: Vec<f64x4>,
 }
 
 impl Builder<'_> {
@@ -119,31 +121,29 @@ impl Builder<'_> {
     fn keep(&mut self, columns: &Range<usize>, rows: &Range<usize>, begin: usize) {
         let at = |column: usize, row: usize| self.table.low + self.side * Vector2::new(column as f64, row as f64);
         let (low, high) = (at(columns.start, rows.start), at(columns.end, rows.end));
-        let corners = [low, Vector2::new(high.x, low.y), Vector2::new(low.x, high.y), high];
-        // The point of the curve nearest to each corner, and how far it may be from there.
-        let mut nearest = [(f64::INFINITY, low, 0.0); 4];
+        let corners = Vectors::of([low, Vector2::new(high.x, low.y), Vector2::new(low.x, high.y), high]);
+        // The points of the curve nearest to the corners, how far these may be from there, and the distance that is less than.
+        let (mut nearest, mut off, mut least) = (corners, f64x4::ZERO, f64x4::splat(f64::INFINITY));
         self.distances.clear();
         for piece in self.pending[begin..].iter().map(|index| &self.pieces[*index as usize]) {
-            let chord = piece.end - piece.start;
-            let per_square = 1.0 / chord.norm_squared();
-            let distances = core::array::from_fn(|corner| {
-                let offset = corners[corner] - piece.start;
-                let fraction = (per_square * offset.dot(&chord)).clamp(0.0, 1.0);
-                let away = offset - fraction * chord;
-                let distance = away.norm();
-                if distance + piece.sagitta < nearest[corner].0 {
-                    nearest[corner] = (distance + piece.sagitta, corners[corner] - away, piece.sagitta);
-                }
-                distance
-            });
-            self.distances.push(distances);
+            let (chord, sagitta) = (piece.end - piece.start, f64x4::splat(piece.sagitta));
+            let offset = corners - Vectors::splat(piece.start);
+            let along = f64x4::splat(1.0 / chord.norm_squared()) * offset.dot(&Vectors::splat(chord));
+            let away = offset - along.max(f64x4::ZERO).min(f64x4::ONE) * Vectors::splat(chord);
+            let distance = away.norm();
+            let nearer = (distance + sagitta).simd_lt(least);
+            nearest = (corners - away).or(nearer, &nearest);
+            (off, least) = (nearer.select(sagitta, off), nearer.select(distance + sagitta, least));
+            self.distances.push(distance);
         }
-        let reach = nearest.map(|(_, point, off)| corners.map(|corner| (corner - point).norm() + off + self.slack));
+        let reach: [f64x4; LANES] = core::array::from_fn(|corner| {
+            let off = f64x4::splat(off.as_array()[corner] + self.slack);
+            (corners - Vectors::splat(nearest.get(corner))).norm() + off
+        });
         for (offset, distances) in self.distances.iter().enumerate() {
             let index = self.pending[begin + offset];
-            let sagitta = self.pieces[index as usize].sagitta;
-            let beats = |reach: &[f64; 4]| reach.iter().zip(distances).all(|(reach, far)| reach + sagitta < *far);
-            if !reach.iter().any(beats) {
+            let sagitta = f64x4::splat(self.pieces[index as usize].sagitta);
+            if !reach.iter().any(|reach| (*reach + sagitta).simd_lt(*distances).all()) {
                 self.pending.push(index);
             }
         }
