@@ -1,11 +1,9 @@
 //! State that outlives a process (architecture invariant 12): one small file a node, replaced as a whole.
 
+use crate::memory::users_folder;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
-
-/// Files in memory, on Linux. On a disk a file that is replaced may hold up the event loop for a tenth of a second.
-const MEMORY: &str = "/dev/shm";
 
 /// Where a node keeps its checkpoint. Files survive the process, not necessarily the machine: a restart after a crash is
 /// what they are for, so nothing is flushed to the disk.
@@ -16,7 +14,7 @@ pub(crate) struct Checkpoint {
 
 impl Checkpoint {
     /// For the node with this full name: in `$TRENCH_STATE_DIR`, else in `$XDG_RUNTIME_DIR/trench/<domain>`, else in a folder
-    /// of the user's in memory ([`MEMORY`]), or where there is none, with the temporary files.
+    /// of the user's in memory ([`users_folder`]).
     pub(crate) fn of(node: &str, domain: u16) -> Self {
         let folder = state_folder(domain, |name| env::var_os(name));
         Self::inside(&folder, node)
@@ -60,12 +58,8 @@ fn state_folder(domain: u16, variable: impl Fn(&str) -> Option<OsString>) -> Pat
     match (variable("TRENCH_STATE_DIR"), variable("XDG_RUNTIME_DIR")) {
         (Some(folder), _) => PathBuf::from(folder),
         (None, Some(runtime)) => Path::new(&runtime).join("trench").join(domain.to_string()),
-        // Without a runtime folder (a container, a daemon): one folder a user, since these are everybody's.
-        (None, None) => {
-            let user = rustix::process::getuid().as_raw();
-            let folder = if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() };
-            folder.join(format!("trench-{user}")).join(domain.to_string())
-        }
+        // Without a runtime folder: in a container, of a daemon.
+        (None, None) => users_folder().join(domain.to_string()),
     }
 }
 
@@ -94,8 +88,6 @@ mod tests {
         };
         check(&[("TRENCH_STATE_DIR", "/a"), ("XDG_RUNTIME_DIR", "/b")], "/a");
         check(&[("XDG_RUNTIME_DIR", "/b")], "/b/trench/7");
-        let memory = if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() };
-        let own = memory.join(format!("trench-{}", rustix::process::getuid().as_raw())).join("7");
-        check(&[], own.to_str().unwrap());
+        check(&[], users_folder().join("7").to_str().unwrap());
     }
 }

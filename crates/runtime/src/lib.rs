@@ -16,6 +16,7 @@ mod help;
 mod journals;
 mod lease;
 mod log;
+mod memory;
 mod node;
 mod parameters;
 mod priority;

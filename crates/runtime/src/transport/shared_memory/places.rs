@@ -1,10 +1,8 @@
 //! Where the files of shared memory are.
 
+use crate::memory::{MEMORY, users_folder};
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
-
-/// Where the memory itself appears as files.
-const MEMORY: &str = "/dev/shm";
+use std::{fs, io};
 
 /// What the names of all files begin with. One host's users do not meet.
 pub(super) fn file_prefix(prefix: &str) -> String {
@@ -13,9 +11,7 @@ pub(super) fn file_prefix(prefix: &str) -> String {
 
 /// The folder of services and nodes.
 pub(super) fn folder(prefix: &str) -> PathBuf {
-    env::temp_dir()
-        .join(format!("trench-{}", rustix::process::getuid().as_raw()))
-        .join(format!("shared_memory{prefix}"))
+    users_folder().join(format!("shared_memory{prefix}"))
 }
 
 /// Removes what processes with this `TRENCH_SHM_PREFIX` left, once all of them have ended. What dead processes left is
