@@ -28,6 +28,12 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
+/// A folder for inputs that are read from files: a disk would be most of an attempt.
+fn in_memory() -> tempfile::TempDir {
+    let memory = Path::new("/dev/shm");
+    if memory.is_dir() { tempfile::tempdir_in(memory).unwrap() } else { tempfile::tempdir().unwrap() }
+}
+
 /// Runs `target` on what was found before, on the corpus, and on mutations of it until time is up.
 fn fuzz(name: &str, corpus: &[Vec<u8>], mut target: impl FnMut(&[u8])) {
     let folder = root().join("target/fuzz");
@@ -115,7 +121,7 @@ fn fuzz_cdr() {
 
 #[test]
 fn fuzz_launch() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = in_memory();
     let file = folder.path().join("fuzz.launch.yaml");
     let environment: BTreeMap<String, String> = BTreeMap::new();
     fuzz("launch", &texts("launch", ".launch.yaml"), |text| {
@@ -158,7 +164,7 @@ fn rf_bridge_parameters() -> Vec<trench_config::ParameterDescriptor> {
 
 #[test]
 fn fuzz_mcap() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = in_memory();
     let file = folder.path().join("fuzz.mcap");
     fuzz("mcap", &corpus::bags(), |bytes| {
         std::fs::write(&file, bytes).unwrap();
