@@ -11,6 +11,8 @@ from mcap_ros2.decoder import DecoderFactory
 
 # m/s, below which a robot stands.
 STANDS = 0.005
+# rad/s, below which it does not turn.
+TURNS = 0.1
 # m, of a robot from its goal point in a formation that stands.
 NEAR = 0.04
 # From which on goals are not of our assignment.

@@ -7,7 +7,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from bag import NEAR, STANDS, Run, Series
+from bag import NEAR, STANDS, TURNS, Run, Series
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -102,6 +102,8 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         verdict.stood = standstill(bag, stopped, began, ended)
         if verdict.stood is None or verdict.stood > STANDSTILL:
             verdict.problems.append(f"{', '.join(stopped)} did not stand within {STANDSTILL} s")
+    if "kill" in fault:
+        verdict.rested = rest(bag, began, min(began + FORMATION, following))
     recover(bag, ended, min(ended + FORMATION, following), verdict, settles=not fault.get("unsettled"))
     return verdict
 
@@ -139,11 +141,24 @@ def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float
     """How long after the beginning the last of the robots stood for the rest of the fault; none if it never did."""
     latest = 0.0
     for robot in robots:
-        moving = [at for at, state in bag.truth[robot].between(began, ended) if state[2] > STANDS or abs(state[3]) > 0.1]
+        moving = [at for at, state in bag.truth[robot].between(began, ended) if state[2] > STANDS or abs(state[3]) > TURNS]
         if moving and moving[-1] > ended - 0.04:
             return None
         latest = max(latest, moving[-1] - began if moving else 0.0)
     return latest
+
+
+def rest(bag: Run, began: float, until: float) -> float:
+    """How long a robot stood at most that then moved on: at the end of its way it stands for good."""
+    longest = 0.0
+    for series in bag.truth.values():
+        since = None
+        for at, state in series.between(began, until):
+            if state[2] <= STANDS and abs(state[3]) <= TURNS:
+                since = at if since is None else since
+            elif since is not None:
+                longest, since = max(longest, at - since), None
+    return longest
 
 
 def since_when(holds, ended: float, until: float) -> float | None:

@@ -17,6 +17,7 @@ the worst of all seeds that were run:
 - **diagnostic**: the one that names the fault, within 0.5 s; *(launcher)*: the launcher's own report of the process that died or
   was stopped; *(itself)*: the word of the second process that does not start; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned stand within 0.6 s (0.25 s on old information, then braking) and until the fault is over;
+- **rest**: after the death of a process, how long a robot stood at most: what its recovery takes;
 - **driven**: all robots move again, or are where they are to be, within 2 s of its end (the victim lives again, the injection is off);
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the
   next fault begins.
@@ -25,8 +26,8 @@ Runs named *hosts* have the base station and each robot's controller on hosts of
 one network, or by Zenoh through a router between two ([hosts.md](hosts.md)); in *hosts-radio* the bridge alone is on a host of its own,
 with somebody who looks through a camera, and commands count as old as they are there.
 
-| fault | run | diagnostic, s | still, s | driven, s | formed, s | verdict | seeds | date (UTC) |
-|---|---|---|---|---|---|---|---|---|
+| fault | run | diagnostic, s | still, s | rest, s | driven, s | formed, s | verdict | seeds | date (UTC) |
+|---|---|---|---|---|---|---|---|---|---|
 """
 
 
@@ -41,7 +42,7 @@ def write(runs: list[dict], results: Path, page: Path) -> None:
         date = max((document["date"] for document in documents), default="-")
         for fault in run["faults"]:
             met, failed_beside = of(fault, documents), [told for told in of(fault, beside) if told["problems"]]
-            unknown = f"| {fault['name']} | {run['name']} | | | | | not run | | - |"
+            unknown = f"| {fault['name']} | {run['name']} | | | | | | not run | | - |"
             lines.append(row(fault, run, met, failed_beside, date) if met else before.get(fault["name"], unknown))
     page.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
 
@@ -71,11 +72,11 @@ def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date
     notes += [f"beside another run: {'; '.join(told['problems'])}; alone it is as said here" for told in failed_beside[:1]]
     result = f"**fails**: {'; '.join(failed[0]['problems'])}" if failed else "pass"
     result += f" ({'; '.join(notes)})" if notes else ""
-    cells = [fault["name"], run["name"], says, *(worst(met, key) for key in ("stood", "recovered", "formed"))]
+    cells = [fault["name"], run["name"], says, *(worst(met, key) for key in ("stood", "rested", "recovered", "formed"))]
     return f"| {' | '.join(cells)} | {result} | {len(met) - len(failed)} of {len(met)} | {date} |"
 
 
 def worst(met: list[dict], key: str) -> str:
     """The longest time, or nothing."""
-    times = [told[key] for told in met if told[key] is not None]
+    times = [told[key] for told in met if told.get(key) is not None]
     return f"{max(times):.2f}" if times else ""

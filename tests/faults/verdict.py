@@ -18,6 +18,7 @@ class Verdict:
     problems: list[str] = field(default_factory=list)
     diagnosed: float | None = None
     stood: float | None = None
+    rested: float | None = None
     recovered: float | None = None
     formed: float | None = None
 
@@ -28,7 +29,7 @@ class Verdict:
 
     def line(self) -> str:
         """For the terminal."""
-        times = [("diagnostic", self.diagnosed), ("still", self.stood), ("driven", self.recovered), ("formed", self.formed)]
+        times = [("diagnostic", self.diagnosed), ("still", self.stood), ("rest", self.rested), ("driven", self.recovered), ("formed", self.formed)]
         told = ", ".join(f"{name} {value:.2f} s" for name, value in times if value is not None)
         return f"{'pass' if self.passed else 'FAIL'}  {self.fault}: {told or '-'}{''.join(f'; {p}' for p in self.problems)}"
 
