@@ -53,7 +53,7 @@ fn problems_of(marker: &Value) -> Vec<&'static str> {
     checks.push((colours != 0 && colours != points.len(), "not a colour a point"));
     checks.extend(match kind {
         LINE_STRIP | LINE_LIST => {
-            let odd = kind == LINE_LIST && points.len() % 2 != 0;
+            let odd = kind == LINE_LIST && !points.len().is_multiple_of(2);
             vec![
                 (sx <= 0.0, "a line without width"),
                 (sy != 0.0 || sz != 0.0, "sizes that a line has not"),
@@ -80,7 +80,10 @@ fn problems_of(marker: &Value) -> Vec<&'static str> {
         ],
         6 | 7 | TRIANGLES => vec![
             (sx <= 0.0 || sy <= 0.0 || sz <= 0.0, "bodies without size"),
-            (points.is_empty() || (kind == TRIANGLES && points.len() % 3 != 0), "not the number of points of bodies"),
+            (
+                points.is_empty() || (kind == TRIANGLES && !points.len().is_multiple_of(3)),
+                "not the number of points of bodies",
+            ),
         ],
         _ => vec![(true, "no kind that is known")],
     });
