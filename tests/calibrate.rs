@@ -1,8 +1,12 @@
 //! `trench calibrate` as people call it: files in, files out, exit codes.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[path = "support/own_memory.rs"]
+mod own_memory;
+
 use image::{GrayImage, RgbImage};
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use own_memory::OwnMemory;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use trench_optics::{Camera, CameraInfo, Lens, Mount, Pad, PlumbBob, Pose2};
@@ -129,27 +133,30 @@ fn colours_are_learned_from_clicks() {
 struct Localizer {
     process: Child,
     domain: String,
+    /// Its shared memory; goes after it.
+    memory: OwnMemory,
 }
 
 impl Localizer {
-    fn environment(domain: &str) -> [(&str, String); 2] {
-        [("ROS_DOMAIN_ID", domain.to_owned()), ("TRENCH_SHM_PREFIX", format!("calibrate{}_", std::process::id()))]
+    fn environment<'a>(domain: &'a str, memory: &'a OwnMemory) -> [(&'static str, &'a str); 2] {
+        [("ROS_DOMAIN_ID", domain), ("TRENCH_SHM_PREFIX", &memory.0)]
     }
 
     fn start() -> Self {
         let domain = (71 + (std::process::id() % 7) * 4).to_string();
+        let memory = OwnMemory(format!("cal{}", std::process::id()));
         let cameras = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/cameras");
         let file = |name: &str| cameras.join(name).display().to_string();
         let process = Command::new(Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_localizer"))
             .args(["--ros-args", "-p", "robots:=[robot1]", "-p"])
             .arg(format!("camera_info_file:={}", file("overhead.yaml")))
             .args(["-p", &format!("mount_file:={}", file("overhead_mount.yaml"))])
-            .envs(Self::environment(&domain))
+            .envs(Self::environment(&domain, &memory))
             .stderr(Stdio::null())
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        Self { process, domain }
+        Self { process, domain, memory }
     }
 
     fn apply(&self, folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
@@ -157,7 +164,7 @@ impl Localizer {
             .args(["calibrate", "apply"])
             .args(arguments)
             .current_dir(folder)
-            .envs(Self::environment(&self.domain))
+            .envs(Self::environment(&self.domain, &self.memory))
             .output()
             .unwrap();
         let said = [output.stdout, output.stderr].concat();

@@ -3,11 +3,14 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test that cannot go on fails")]
 
+#[path = "support/own_memory.rs"]
+mod own_memory;
 #[expect(dead_code, reason = "the page of trench view uses the rest")]
 mod view_support;
 
 use image::RgbImage;
 use nalgebra::Point3;
+use own_memory::OwnMemory;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
@@ -93,10 +96,10 @@ fn live_colours_are_learned_on_the_page_saved_and_taken_over() {
     let strict = "/**/overhead_localizer:\n  ros__parameters:\n    colour: {yellow: 1.9, blue: 1.9, minimum: 200.0}\n";
     std::fs::write(&out, strict).unwrap();
     let domain = (102 + std::process::id() % 20).to_string();
-    let prefix = format!("colours{}_", std::process::id());
+    let memory = OwnMemory(format!("colours{}_", std::process::id()));
     let state = folder.path().join("state");
     let variables =
-        [("ROS_DOMAIN_ID", &*domain), ("TRENCH_SHM_PREFIX", &*prefix), ("TRENCH_STATE_DIR", state.to_str().unwrap())];
+        [("ROS_DOMAIN_ID", &*domain), ("TRENCH_SHM_PREFIX", &*memory.0), ("TRENCH_STATE_DIR", state.to_str().unwrap())];
     let (lens, mount) = (config("overhead.yaml").display().to_string(), config("overhead_mount.yaml"));
     let mount = mount.display().to_string();
     let arguments = ["--lens", &lens, "--mount", &mount, "--out", out.to_str().unwrap()];

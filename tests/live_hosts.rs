@@ -58,6 +58,7 @@ fn the_square_stands(launch: &Launch, hosts: &[Host], variables: impl Fn(usize) 
     let (status, text) = launch.finish(hosts[0].move_to(&base));
     assert!(status.success(), "{status}\n{text}");
     drop(controllers);
+    hosts.iter().for_each(|host| launch.forget(host.name()));
     tuned::keeps_its_bounds(&launch.judge(&[]));
 }
 

@@ -1,6 +1,10 @@
 //! Bags played by one process and recorded by another.
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
+#[path = "support/own_memory.rs"]
+mod own_memory;
+
+use own_memory::OwnMemory;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -45,10 +49,11 @@ fn live_what_is_played_is_discovered_and_recorded() {
     let count = write(&original);
     // Up to 101: the ports of domains above may be in use by anyone.
     let domain = (89 + std::process::id() % 10).to_string();
+    let memory = OwnMemory(format!("play{}_", std::process::id()));
     let trench = |arguments: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
         command.arg("bag").args(arguments).stdin(Stdio::null());
-        command.env("ROS_DOMAIN_ID", &domain).env("TRENCH_SHM_PREFIX", format!("play{}_", std::process::id()));
+        command.env("ROS_DOMAIN_ID", &domain).env("TRENCH_SHM_PREFIX", &memory.0);
         command.env("TRENCH_STATE_DIR", folder.path().join("state"));
         command
     };

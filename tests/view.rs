@@ -3,8 +3,11 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test that cannot go on fails")]
 
+#[path = "support/own_memory.rs"]
+mod own_memory;
 mod view_support;
 
+use own_memory::OwnMemory;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::json;
 use std::path::Path;
@@ -104,10 +107,10 @@ fn a_formation_is_drawn_where_its_target_carries_it() {
 fn live_square_in_two_browsers() {
     let folder = tempfile::tempdir().unwrap();
     let domain = (70 + std::process::id() % 30).to_string();
-    let prefix = format!("view{}_", std::process::id());
+    let memory = OwnMemory(format!("view{}_", std::process::id()));
     let state = folder.path().join("state");
     let variables =
-        [("ROS_DOMAIN_ID", &*domain), ("TRENCH_SHM_PREFIX", &*prefix), ("TRENCH_STATE_DIR", state.to_str().unwrap())];
+        [("ROS_DOMAIN_ID", &*domain), ("TRENCH_SHM_PREFIX", &*memory.0), ("TRENCH_STATE_DIR", state.to_str().unwrap())];
     let viewer = Viewer::start(&[], &variables);
     let mut early = Browser::open(&viewer.page(), (1280, 800));
     early.until("document.body.dataset.mode === 'live' && document.body.dataset.robots === '0'");
@@ -155,7 +158,8 @@ fn live_square_in_two_browsers() {
 
 #[test]
 fn requests_that_are_refused() {
-    let viewer = Viewer::start(&[], &[("ROS_DOMAIN_ID", "101"), ("TRENCH_SHM_PREFIX", "viewbad_")]);
+    let memory = OwnMemory(format!("viewbad{}_", std::process::id()));
+    let viewer = Viewer::start(&[], &[("ROS_DOMAIN_ID", "101"), ("TRENCH_SHM_PREFIX", &*memory.0)]);
     let host = viewer.host.clone();
     let check = |request: &str, expected: &str| {
         let (first, answer) = viewer.send(request);

@@ -62,7 +62,8 @@ class Hosts:
 
     def environment(self, host: str) -> dict[str, str]:
         """What a process there must know: hosts share no memory, and by Zenoh all go through the router."""
-        own = {"TRENCH_SHM_PREFIX": f"{self.prefix}{host}_"}
+        # Of twelve bytes at most, so that its files are found by it.
+        own = {"TRENCH_SHM_PREFIX": f"{self.prefix}{host[:2]}{host[-1]}"}
         if self.kind == RADIO:
             own["RMW_IMPLEMENTATION"] = "rmw_zenoh_cpp"
         if self.kind == "zenoh":

@@ -287,8 +287,8 @@ class Launched:
             self.hosts.close()
         # Not those of a process whose number begins with the digits of ours.
         shutil.rmtree(self.state, ignore_errors=True)
-        for services in (MEMORY / f"trench-{os.getuid()}").glob(f"shared_memory{self.shared_memory()}*"):
-            if not services.name.removeprefix(f"shared_memory{self.shared_memory()}")[:1].isdigit():
-                shutil.rmtree(services, ignore_errors=True)
         for file in MEMORY.glob(f"trench_*_{self.shared_memory()}[!0-9]*"):
-            file.unlink(missing_ok=True)
+            if file.is_dir():
+                shutil.rmtree(file, ignore_errors=True)
+            else:
+                file.unlink(missing_ok=True)

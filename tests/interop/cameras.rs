@@ -1,6 +1,6 @@
 //! Pictures of ROS's ordinary camera drivers, and ours for its viewers.
 
-use crate::support::Island;
+use crate::support::{Island, Running};
 use serde_json::Value;
 
 /// A picture of grey noise (a linear congruence).
@@ -30,13 +30,12 @@ fn interop_an_ordinary_camera_driver_loses_one_frame_of_a_hundred_at_most() {
         ("reliable,volatile,10", "image", ""),
         ("best_effort,volatile,5", "compressed", jpeg.as_str()),
     ] {
-        let mut localizer = island
-            .command(&program)
+        let mut localizer = island.command(&program);
+        localizer
             .args(["--ros-args", "-p", "robots:=[robot1]", "-p", &format!("input:={input}")])
             .args(["-p", &format!("camera_info_file:={}", camera("overhead.yaml"))])
-            .args(["-p", &format!("mount_file:={}", camera("overhead_mount.yaml"))])
-            .spawn()
-            .unwrap();
+            .args(["-p", &format!("mount_file:={}", camera("overhead_mount.yaml"))]);
+        let localizer = Running::start(&mut localizer);
         let diagnostics = island.follow("/diagnostics diagnostic_msgs/msg/DiagnosticArray --qos reliable,volatile,100");
         let sent = island.ask("peer_camera.py", &format!("--qos {qos} --frames {FRAMES} {what}"));
         let mut taken = 0;
@@ -55,8 +54,7 @@ fn interop_an_ordinary_camera_driver_loses_one_frame_of_a_hundred_at_most() {
             taken = camera.and_then(value).unwrap_or(0);
             taken > 0
         });
-        localizer.kill().unwrap();
-        localizer.wait().unwrap();
+        drop(localizer);
         println!("{qos} {input}: {taken} of {FRAMES} frames were taken ({sent})");
         assert!(100 * (FRAMES - taken) <= FRAMES, "{qos} {input}: {taken} of {FRAMES} frames were taken ({sent})");
     }
@@ -73,17 +71,16 @@ fn interop_a_viewer_gets_the_camera_s_pictures_whole() {
         picture.save(folder.path().join(format!("frame{index}.png"))).unwrap();
     }
     let lens = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("config/cameras/overhead.yaml");
-    let mut camera = island
-        .command(std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_camera"))
+    let mut camera =
+        island.command(std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("overhead_camera"));
+    camera
         .args(["--ros-args", "-p", "source:=folder", "-p", "repeat:=true", "-p", "rate:=20.0"])
         .args(["-p", &format!("path:={}", folder.path().display())])
         .args(["-p", &format!("camera_info_file:={}", lens.display())])
-        .args(["-p", "publish_over_network:=[\"/overhead/image_raw\"]"])
-        .spawn()
-        .unwrap();
+        .args(["-p", "publish_over_network:=[\"/overhead/image_raw\"]"]);
+    let camera = Running::start(&mut camera);
     let seen = island.ask("peer_viewer.py", &format!("/overhead/image_raw --count {COUNT}"));
-    camera.kill().unwrap();
-    camera.wait().unwrap();
+    drop(camera);
     let expected = pictures.map(|picture| u64::from(crc32fast::hash(picture.as_raw())));
     let mut counts = [0; 2];
     for picture in seen["pictures"].as_array().unwrap() {

@@ -9,7 +9,7 @@ mod operator;
 mod support;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use support::{Island, Launch, Moment, graph, number, stamp};
+use support::{Island, Launch, Moment, Running, graph, number, stamp};
 
 const TEAM_STATE: &str = "/team_state trench_msgs/msg/TeamState --qos reliable,volatile,10";
 
@@ -169,14 +169,13 @@ fn parameter_services_work(island: &Island) {
 fn interop_all_parameters_at_once() {
     let island = Island::new(2);
     let program = std::path::Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("formation_controller");
-    let mut controller = island.command(program).args(["--ros-args", "-r", "__ns:=/robot1"]).spawn().unwrap();
+    let controller = Running::start(island.command(program).args(["--ros-args", "-r", "__ns:=/robot1"]));
     let output = island
         .python("peer_param.py")
         .args(["/robot1/formation_controller", "dump", "--timeout", "40"])
         .output()
         .unwrap();
-    controller.kill().unwrap();
-    controller.wait().unwrap();
+    drop(controller);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let values: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(values.as_object().unwrap().len() > 50, "{values}");

@@ -1,6 +1,6 @@
 //! What the nodes and `trench view --markers` draw for RViz2 and Foxglove.
 
-use crate::support::{Island, Launch, markers};
+use crate::support::{Island, Launch, Running, markers};
 use std::collections::BTreeSet;
 
 /// All that the figures of chapter 7 show, of every node that draws, comes and is what RViz takes without complaint.
@@ -8,12 +8,8 @@ use std::collections::BTreeSet;
 fn interop_markers_are_what_rviz_draws() {
     let island = Island::new(0);
     let launch = Launch::start(&island, "launch/pursuit.launch.yaml", &["render:=false", "duration:=600.0"]);
-    let mut viewer = island
-        .command(env!("CARGO_BIN_EXE_trench"))
-        .args(["view", "--markers", "--port", "0"])
-        .stdout(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut viewer = island.command(env!("CARGO_BIN_EXE_trench"));
+    let viewer = Running::start(viewer.args(["view", "--markers", "--port", "0"]).stdout(std::process::Stdio::null()));
     let drawn = island.follow("/markers visualization_msgs/msg/MarkerArray --qos reliable,volatile,100");
     let mut missing = BTreeSet::from([
         "apparent_obstacles",
@@ -38,8 +34,7 @@ fn interop_markers_are_what_rviz_draws() {
         }
         missing.is_empty()
     });
-    viewer.kill().unwrap();
-    viewer.wait().unwrap();
+    drop(viewer);
     let (code, said) = launch.interrupt();
     assert_eq!(code, Some(130), "the run is not over: {said}");
 }

@@ -81,7 +81,10 @@ impl Launch {
         assert!(port.symlink_metadata().is_err(), "{} is still there", port.display());
         let names =
             std::fs::read_dir("/dev/shm").unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-        let ours = names.filter(|name| name.contains(&self.shared_memory("")) && !name.ends_with(".global_mgmt"));
+        let ours = format!("_{}_", self.shared_memory(""));
+        let is_left =
+            |name: &String| name.contains(&ours) && !name.ends_with(".global_mgmt") && !name.ends_with("_dir");
+        let ours = names.filter(is_left);
         assert_eq!(ours.collect::<Vec<_>>(), Vec::<String>::new(), "shared memory is left");
     }
 
@@ -97,15 +100,20 @@ impl Launch {
 
     /// The prefix of its shared memory on a host.
     fn shared_memory(&self, host: &str) -> String {
-        format!("live{}{host}_{}_", self.domain, std::process::id())
+        format!("l{}x{}{host}", self.domain, std::process::id())
+    }
+
+    /// Removes what is left of the shared memory on a host whose processes have ended.
+    pub(crate) fn forget(&self, host: &str) {
+        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory(host)) {
+            println!("shared memory of the test stays behind: {error}");
+        }
     }
 }
 
 impl Drop for Launch {
     fn drop(&mut self) {
-        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory("")) {
-            println!("shared memory of the test stays behind: {error}");
-        }
+        self.forget("");
     }
 }
 

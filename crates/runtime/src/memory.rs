@@ -7,8 +7,12 @@ use std::path::{Path, PathBuf};
 /// services of a node with four robots, each flushed to it, its start for two thirds of one.
 pub(crate) const MEMORY: &str = "/dev/shm";
 
-/// The user's folder there, since the place is everybody's; where there is none, with the temporary files.
+/// That place; where there is none, the one of temporary files.
+pub(crate) fn folder_in_memory() -> PathBuf {
+    if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() }
+}
+
+/// The user's folder there, since the place is everybody's.
 pub(crate) fn users_folder() -> PathBuf {
-    let folder = if Path::new(MEMORY).is_dir() { PathBuf::from(MEMORY) } else { env::temp_dir() };
-    folder.join(format!("trench-{}", rustix::process::getuid().as_raw()))
+    folder_in_memory().join(format!("trench-{}", rustix::process::getuid().as_raw()))
 }

@@ -5,11 +5,13 @@ mod island;
 mod launch;
 pub(crate) mod markers;
 mod peer;
+mod running;
 mod team;
 
 pub(crate) use island::Island;
 pub(crate) use launch::Launch;
 pub(crate) use peer::{Follower, Publisher};
+pub(crate) use running::Running;
 pub(crate) use team::{Moment, number, stamp};
 
 use std::time::Duration;
