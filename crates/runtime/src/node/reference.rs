@@ -2,7 +2,7 @@
 
 use super::connect::Connections;
 use super::{Node, NodeWake, Wake};
-use crate::reference::{Estimate, Exchange, Offset};
+use crate::reference::{Estimate, Exchange, Offset, Questions};
 use crate::transport::TransportError;
 use crate::transport::network::{Gid, NetworkWriter, ServiceClient, ServiceServer, TopicName};
 use std::collections::BTreeSet;
@@ -23,10 +23,6 @@ pub(super) fn server(
     Ok(server)
 }
 
-/// How often the other clock is asked: quickly until there is a good answer, then as often as diagnostics go out.
-const FIRST_SECONDS: f64 = 0.1;
-const LATER_SECONDS: f64 = 1.0;
-
 /// ns: what a pose may be off by without a robot being so: 10 ms at 0.3 m/s are 3 mm.
 const GOOD_BOUND: i64 = 10_000_000;
 
@@ -41,9 +37,7 @@ pub(super) struct ClockReference {
     service: Box<dyn ServiceClient>,
     diagnostics: Box<dyn NetworkWriter>,
     estimate: Estimate,
-    /// The question under way: its count and when it was asked.
-    asked: Option<(u64, Steady)>,
-    next: Steady,
+    questions: Questions,
 }
 
 impl ClockReference {
@@ -56,11 +50,11 @@ impl ClockReference {
         let (estimate, of) = (Estimate::default(), of.to_owned());
         // Without a name it is still a host.
         let host = std::fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default().trim().to_owned();
-        Ok(Self { of, host, service, diagnostics, estimate, asked: None, next: Steady(0) })
+        Ok(Self { of, host, service, diagnostics, estimate, questions: Questions::default() })
     }
 
     pub(super) fn next(&self) -> Steady {
-        self.next
+        self.questions.next()
     }
 
     pub(super) fn readers_changed(&mut self, writer: &Gid, readers: &BTreeSet<Gid>) {
@@ -78,14 +72,14 @@ impl ClockReference {
 
     /// Asks if it is time to; true if it is.
     fn ask(&mut self, now: Steady) -> bool {
-        if self.next > now {
+        let good = self.estimate.at(now).is_some_and(|known| known.bound <= GOOD_BOUND);
+        if !self.questions.are_due(now, good) {
             return false;
         }
-        let good = self.estimate.at(now).is_some_and(|known| known.bound <= GOOD_BOUND);
-        self.next = now.plus_seconds(if good { LATER_SECONDS } else { FIRST_SECONDS });
-        if self.service.is_ready() {
-            self.asked =
-                self.service.call(ExchangeTimeRequest::default().to_cdr().into()).ok().map(|count| (count, now));
+        if self.service.is_ready()
+            && let Ok(count) = self.service.call(ExchangeTimeRequest::default().to_cdr().into())
+        {
+            self.questions.ask(count, now);
         }
         true
     }
@@ -97,7 +91,7 @@ impl ClockReference {
         while let Some(taken) = self.service.take() {
             let (count, cdr) = taken?;
             let back = now();
-            let Some((_, asked)) = self.asked.take_if(|(asked, _)| *asked == count) else { continue };
+            let Some(asked) = self.questions.answer(count) else { continue };
             let answer = ExchangeTimeResponse::decode(&cdr).map_err(|error| error.to_string())?;
             let (heard, answered) = (RosTime::from(&answer.received), RosTime::from(&answer.sent));
             was_set |= !self.estimate.add(Exchange { asked, heard, answered, back });
