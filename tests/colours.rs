@@ -5,14 +5,17 @@
 
 #[path = "support/own_memory.rs"]
 mod own_memory;
+#[path = "support/running.rs"]
+mod running;
 #[expect(dead_code, reason = "the page of trench view uses the rest")]
 mod view_support;
 
 use image::RgbImage;
 use nalgebra::Point3;
 use own_memory::OwnMemory;
+use running::Running;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
 use trench_sim::camera::{Appearance, Renderer, Scene};
 use view_support::{Browser, Viewer};
@@ -34,22 +37,12 @@ fn poses() -> [Pose2; ROBOTS] {
     [(0.5, 0.5, 0.3), (1.2, 0.5, 2.0), (1.9, 1.3, -1.0), (0.8, 1.4, -2.5)].map(|(x, y, theta)| Pose2 { x, y, theta })
 }
 
-/// A process that ends with this.
-struct Process(Child);
-
-impl Drop for Process {
-    fn drop(&mut self) {
-        let _has_ended = self.0.kill();
-        let _has_ended = self.0.wait();
-    }
-}
-
 /// A node of the workspace.
-fn start(node: &str, parameters: &[String], variables: &[(&str, &str)]) -> Process {
+fn start(node: &str, parameters: &[String], variables: &[(&str, &str)]) -> Running {
     let program = Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name(node);
     let mut command = Command::new(program);
     command.arg("--ros-args").args(parameters.iter().flat_map(|one| ["-p", one])).envs(variables.iter().copied());
-    Process(command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
+    Running::start(command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()))
 }
 
 /// Frames of four robots in warm light, with noise, for a camera that reads a folder.

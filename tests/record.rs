@@ -5,11 +5,14 @@
 mod full_disk;
 #[path = "record/killed.rs"]
 mod killed;
+#[path = "support/running.rs"]
+mod running;
 #[path = "record/stack.rs"]
 mod stack;
 
+use running::Running;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use trench_bag::{BagWriter, Stamp, WriteOptions};
 use trench_core::Qos;
@@ -62,25 +65,11 @@ impl Drop for Island {
     }
 }
 
-/// A process that does not outlive its test.
-struct Running(Child);
-
 impl Running {
-    fn start(command: &mut Command) -> Self {
-        Self(command.spawn().unwrap())
-    }
-
     fn interrupt(mut self) -> bool {
         let process = rustix::process::Pid::from_child(&self.0);
         rustix::process::kill_process(process, rustix::process::Signal::INT).unwrap();
         self.0.wait().unwrap().success()
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _gone = self.0.kill();
-        let _code = self.0.wait();
     }
 }
 

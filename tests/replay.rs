@@ -7,6 +7,8 @@ mod damage;
 mod gain;
 #[path = "replay/live.rs"]
 mod live;
+#[path = "support/programs.rs"]
+mod programs;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,21 +1,15 @@
 //! Launches in real time, judged from the bags that they record.
 
+#[path = "../support/own_memory.rs"]
+mod own_memory;
+#[path = "../support/programs.rs"]
+mod programs;
+
+use own_memory::OwnMemory;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
 use trench_bag::BagReader;
 use trench_bag::run::{Run, RunSummary, SummaryOptions, summary};
-
-/// The programs a launch starts; `cargo build --workspace --bins` makes them.
-const PROGRAMS: [&str; 8] = [
-    "bag_recorder",
-    "formation_controller",
-    "leader_assignment",
-    "obstacle_mapper",
-    "operator",
-    "overhead_localizer",
-    "rf_bridge",
-    "testbed",
-];
 
 /// A launch with a domain, shared memory, a state folder and a serial port of its own.
 pub(crate) struct Launch {
@@ -27,11 +21,6 @@ pub(crate) struct Launch {
 
 impl Launch {
     pub(crate) fn new(domain: u32) -> Self {
-        let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
-        for program in PROGRAMS {
-            let path = trench.with_file_name(program);
-            assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
-        }
         Self { folder: tempfile::tempdir().unwrap(), domain, variables: Vec::new() }
     }
 
@@ -58,7 +47,7 @@ impl Launch {
     pub(crate) fn command(&self, file: &str, host: &str) -> Command {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let own = |name: &str| self.folder.path().join(format!("{name}{host}"));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
+        let mut command = Command::new(programs::trench());
         command.arg("launch").arg(root.join("launch").join(file)).arg("--run-dir").arg(own("run"));
         command.env("ROS_DOMAIN_ID", self.domain.to_string());
         command.env("TRENCH_SHM_PREFIX", self.shared_memory(host)).env("TRENCH_STATE_DIR", own("state"));
@@ -105,9 +94,7 @@ impl Launch {
 
     /// Removes what is left of the shared memory on a host whose processes have ended.
     pub(crate) fn forget(&self, host: &str) {
-        if let Err(error) = trench_runtime::forget_shared_memory(&self.shared_memory(host)) {
-            println!("shared memory of the test stays behind: {error}");
-        }
+        drop(OwnMemory(self.shared_memory(host)));
     }
 }
 

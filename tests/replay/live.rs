@@ -7,17 +7,6 @@ use std::time::Duration;
 use trench_harness::replay::{Verdict, replay};
 use trench_journal::JournalReader;
 
-/// The programs a launch starts; `cargo build --workspace --bins` makes them.
-const NODES: [&str; 7] = [
-    "formation_controller",
-    "leader_assignment",
-    "obstacle_mapper",
-    "operator",
-    "overhead_localizer",
-    "rf_bridge",
-    "testbed",
-];
-
 /// How many squares are launched and checked: `TRENCH_LIVE_RUNS`, one by default.
 fn runs() -> u32 {
     std::env::var("TRENCH_LIVE_RUNS").map_or(1, |text| text.parse().unwrap())
@@ -25,13 +14,8 @@ fn runs() -> u32 {
 
 /// Launches the square for so many seconds, with a bag, and gives what it said.
 fn launch(folder: &Path, domain: u32, seconds: f64, arguments: &[&str]) -> String {
-    let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
-    for program in NODES {
-        let path = trench.with_file_name(program);
-        assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
-    }
     let domain = domain_number(domain);
-    let output = Command::new(trench)
+    let output = Command::new(super::programs::trench())
         .arg("launch")
         .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("launch/square.launch.yaml"))
         .arg(format!("duration:={seconds:?}"))

@@ -1,5 +1,6 @@
 //! What keeps the processes of one test apart from all others, and the virtual environment of the rclpy ones.
 
+use super::own_memory::OwnMemory;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -9,7 +10,7 @@ pub(crate) struct Island {
     folder: TempDir,
     venv: PathBuf,
     domain: u32,
-    prefix: String,
+    memory: OwnMemory,
 }
 
 impl Island {
@@ -17,8 +18,8 @@ impl Island {
     pub(crate) fn new(number: u32) -> Self {
         // 1 to 39: other tests of the workspace use domains above.
         let domain = 1 + (std::process::id() % 9) * 4 + number;
-        let prefix = format!("interop{}n{number}", std::process::id());
-        Self { folder: tempfile::tempdir().unwrap(), venv: venv(), domain, prefix }
+        let memory = OwnMemory(format!("interop{}n{number}", std::process::id()));
+        Self { folder: tempfile::tempdir().unwrap(), venv: venv(), domain, memory }
     }
 
     /// A folder that goes with the test.
@@ -31,7 +32,7 @@ impl Island {
         let mut command = Command::new(program);
         command
             .env("ROS_DOMAIN_ID", self.domain.to_string())
-            .env("TRENCH_SHM_PREFIX", &self.prefix)
+            .env("TRENCH_SHM_PREFIX", &self.memory.0)
             .env("TRENCH_STATE_DIR", self.folder().join("state"));
         command
     }
@@ -55,15 +56,6 @@ impl Island {
         let mut command = self.in_venv(self.command(self.venv.join("bin/python3")));
         command.arg(script);
         command
-    }
-}
-
-impl Drop for Island {
-    /// iceoryx2 keeps some bookkeeping for the next process of the island, and there is none.
-    fn drop(&mut self) {
-        if let Err(error) = trench_runtime::forget_shared_memory(&self.prefix) {
-            println!("shared memory of the test stays behind: {error}");
-        }
     }
 }
 

@@ -1,22 +1,11 @@
 //! The stack under `trench launch`.
 
-use super::{Island, PATIENCE};
+use super::{Island, PATIENCE, programs};
 use rustix::process::{Pid, Signal, kill_process};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
-
-/// The programs a launch starts; `cargo build --workspace --bins` makes them.
-const PROGRAMS: [&str; 7] = [
-    "formation_controller",
-    "leader_assignment",
-    "obstacle_mapper",
-    "operator",
-    "overhead_localizer",
-    "rf_bridge",
-    "testbed",
-];
 
 /// A running `trench launch`. Its processes end with it, however it ends.
 pub(crate) struct Launch {
@@ -27,15 +16,10 @@ pub(crate) struct Launch {
 impl Launch {
     /// Launches a file, given from the root of the repository.
     pub(crate) fn start(island: &Island, file: &str, arguments: &[&str]) -> Self {
-        let trench = Path::new(env!("CARGO_BIN_EXE_trench"));
-        for program in PROGRAMS {
-            let path = trench.with_file_name(program);
-            assert!(path.exists(), "{} is missing: run cargo build --workspace --bins", path.display());
-        }
         let output = island.folder().join("output");
         let file_of_output = File::create(&output).unwrap();
         let launcher = island
-            .command(trench)
+            .command(programs::trench())
             .arg("launch")
             .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join(file))
             .arg(format!("port:={}", island.folder().join("port").display()))

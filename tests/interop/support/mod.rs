@@ -4,7 +4,12 @@ pub(crate) mod graph;
 mod island;
 mod launch;
 pub(crate) mod markers;
+#[path = "../../support/own_memory.rs"]
+mod own_memory;
 mod peer;
+#[path = "../../support/programs.rs"]
+mod programs;
+#[path = "../../support/running.rs"]
 mod running;
 mod team;
 

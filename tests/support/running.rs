@@ -3,7 +3,7 @@
 use std::process::{Child, Command};
 
 /// A process that does not outlive its test, whatever that finds.
-pub(crate) struct Running(Child);
+pub(crate) struct Running(pub(crate) Child);
 
 impl Running {
     pub(crate) fn start(command: &mut Command) -> Self {
