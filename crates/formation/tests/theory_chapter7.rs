@@ -6,7 +6,7 @@ use chapter7::{Run, chain_of_7_10, run};
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
 use trench_formation::seek::{LeaderRule, SeekSettings};
-use trench_formation::simulate::{ChainScenario, ChainSimulation, Encroaching};
+use trench_formation::simulate::{ChainScenario, ChainSimulation, Encroaching, Integration, Options};
 
 fn leader_distances(run: &Run) -> Vec<f64> {
     run.robots.windows(2).map(|pair| (pair[0].position - pair[1].position).norm()).collect()
@@ -30,6 +30,21 @@ fn without_obstacles() {
     assert!((run.robots[9].position.x - 37.819).abs() < 4e-3, "{}", run.robots[9].position.x);
     assert!(run.robots.iter().all(|robot| (robot.position.x - robot.position.y).abs() < 1e-6));
     assert!(run.closest > 3.6, "{}", run.closest);
+}
+
+/// The method of integration changes nothing that can be seen where no obstacle pushes: here accelerations are held, and
+/// the motion of a step is exact.
+#[test]
+fn in_exact_steps() {
+    let exact = Options { integration: Integration::Exact, ..Options::default() };
+    let free = ChainScenario { obstacles: Vec::new(), ..chain_of_7_10(2.0) };
+    let (held, stepped) = (run(ChainScenario { options: exact.clone(), ..free.clone() }), run(free));
+    assert_ne!(xs(&held), xs(&stepped), "another method");
+    assert_near(&xs(&held), &xs(&stepped), 1e-5);
+    let among = run(ChainScenario { options: exact, ..chain_of_7_10(5.0) });
+    let expected = [100.0, 92.940, 86.872, 79.811, 72.751, 65.690, 58.630, 51.569, 44.509, 37.448];
+    assert_near(&xs(&among), &expected, 2e-2);
+    assert!(among.closest > 3.5 && among.nearest_obstacles.iter().all(|nearest| *nearest > 2.0), "{among:?}");
 }
 
 /// The figures of ERRATA: nearest points on the whole segment.

@@ -119,6 +119,9 @@ fn timing() {
     check("7.11.yaml", "step: 0.001", "step: 0.0", &["step", "not positive"]);
     check("7.11.yaml", "record_every: 0.05", "record_every: 0.0015", &["record_every", "multiple"]);
     check("7.11.yaml", "method: semi_implicit_euler", "method: rk4", &["method", "semi_implicit_euler"]);
+    check("7.15.yaml", "method: semi_implicit_euler", "method: exact", &["method", "the others are driven"]);
+    let safe = "method: exact\nlimits: {speed: 1.0, acceleration: 1.0}\nsafety: {body_radius: 0.1}";
+    check("7.11.yaml", "method: semi_implicit_euler", safe, &["method", "safety filter", "write semi_implicit_euler"]);
     check("7.11.yaml", "kind: nearest_points", "kind: nearest_point", &["did you mean `nearest_points`?"]);
     check("7.11.yaml", "draws: trajectories", "draws: trajectory", &["figures[0].draws"]);
 }

@@ -86,7 +86,7 @@ impl LeaderAssignment {
     pub(crate) fn assign(&mut self, at: Times, sink: &mut dyn Sink) {
         let Some(mut robots) = self.positions(&self.held, at) else { return };
         robots.retain(|(robot, _)| !self.members.is_gone(robot));
-        match organise(&self.held.plan, &robots, &self.seats, self.settings.keep_margin) {
+        match organise(&self.held.plan, &robots, &self.seats, self.settings.seating) {
             Ok(seats) => self.seats = seats,
             Err(error) => {
                 self.health.set("assignment", Condition::Error, error.to_string());

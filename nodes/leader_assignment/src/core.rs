@@ -3,7 +3,7 @@
 use crate::checkpoint::{self, Checkpoint};
 use crate::held::Held;
 use crate::organise::Seated;
-use crate::settings::{Settings, descriptors, target_limits, team_limits};
+use crate::settings::{Settings, descriptors, seating, target_limits, team_limits};
 use crate::team::Team;
 use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
@@ -218,9 +218,9 @@ impl NodeCore for LeaderAssignment {
     }
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {
-        let (keep_margin, target) = (parameters.f64("keep_margin")?, target_limits(parameters)?);
+        let (seating, target) = (seating(parameters)?, target_limits(parameters)?);
         self.settings.team = team_limits(parameters)?;
-        (self.settings.keep_margin, self.settings.target) = (keep_margin, target);
+        (self.settings.seating, self.settings.target) = (seating, target);
         self.target.set_limits(target);
         Ok(())
     }

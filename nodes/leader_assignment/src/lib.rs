@@ -30,7 +30,7 @@ mod watch;
 
 pub use crate::core::{LeaderAssignment, description};
 pub use carrier::Carrier;
-pub use organise::{OrganiseError, Seated, organise};
+pub use organise::{ChainOrder, OrganiseError, Seated, Seating, organise};
 pub use run_machine::{Request, RunMachine, state_name};
 pub use target::{Target, TargetLimits, TargetRefusal};
 pub use virtual_point::{VirtualPoint, virtual_point};

@@ -83,7 +83,9 @@ fn renumbered(plan: &Plan, mut seats: Vec<Seated>) -> Vec<Seated> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::organise;
+    use crate::{ChainOrder, Seating, organise};
+
+    const SEATING: Seating = Seating { keep_margin: 0.2, order: ChainOrder::Nearest };
 
     fn plan(name: &str) -> Plan {
         let path = format!("{}/../../config/formations/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
@@ -111,7 +113,7 @@ mod tests {
     fn a_chain_closes_up_and_takes_a_robot_in_where_it_is() {
         let plan = plan("column");
         let robots = team(&[(-0.1, 0.0), (-0.5, 0.1), (-0.8, 0.0), (-1.2, 0.0)]);
-        let seats = organise(&plan, &robots, &[], 0.2).unwrap();
+        let seats = organise(&plan, &robots, &[], SEATING).unwrap();
         let three = without(&plan, &seats, |robot| robot == "robot2");
         let closed = [("robot1", 1, 0, ""), ("robot3", 2, 1, "robot1"), ("robot4", 3, 2, "robot3")];
         assert_eq!(told(&three), closed);
@@ -129,7 +131,7 @@ mod tests {
     fn at_vertices_everybody_stays() {
         let plan = plan("square");
         let robots = team(&[(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)]);
-        let seats = organise(&plan, &robots, &[], 0.2).unwrap();
+        let seats = organise(&plan, &robots, &[], SEATING).unwrap();
         let positions: BTreeMap<String, Vector2<f64>> = robots.into_iter().collect();
         for robot in ["robot1", "robot2", "robot3", "robot4"] {
             let three = without(&plan, &seats, |name| name == robot);
@@ -147,7 +149,7 @@ mod tests {
     fn who_come_back_together_or_one_after_another_get_their_places_back() {
         let plan = plan("square");
         let robots = team(&[(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)]);
-        let seats = organise(&plan, &robots, &[], 0.2).unwrap();
+        let seats = organise(&plan, &robots, &[], SEATING).unwrap();
         let end = |seat: &Seated| {
             let queue = &plan.queues[seat.queue];
             queue.curve.at(queue.places[seat.place].end).point

@@ -23,6 +23,25 @@ pub enum OrganiseError {
     Chain(#[from] ChainError),
 }
 
+/// Who follows whom in a queue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ChainOrder {
+    /// The rule of 6.2.1: whoever is nearest to the robot ahead is next. Two robots abreast may have to change sides.
+    #[default]
+    Nearest,
+    /// As the places that they got follow one another: ways are short, and seldom cross.
+    Places,
+}
+
+/// How robots are seated.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seating {
+    /// The present seats stay unless the best ones are shorter by this fraction.
+    pub keep_margin: f64,
+    /// The order of each queue.
+    pub order: ChainOrder,
+}
+
 /// A robot with its place and its rank.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Seated {
@@ -65,8 +84,7 @@ impl Seated {
 }
 
 /// Gives every robot (name and position, m, formation's frame) a place: queues get robots by their shares, places so that
-/// the sum of squared distances to the starts of the virtual points is least. The present seats stay unless the best
-/// ones are shorter by the fraction `keep_margin`. Ordered by queue, then rank.
+/// the sum of squared distances to the starts of the virtual points is least. Ordered by queue, then rank.
 ///
 /// # Errors
 /// When there are more robots than places, or a position is not finite.
@@ -74,7 +92,7 @@ pub fn organise(
     plan: &Plan,
     robots: &[(String, Vector2<f64>)],
     present: &[Seated],
-    keep_margin: f64,
+    seating: Seating,
 ) -> Result<Vec<Seated>, OrganiseError> {
     let open = open_places(plan, robots.len())?;
     let start = |&(queue, place): &(usize, usize)| {
@@ -84,10 +102,10 @@ pub fn organise(
     let starts: Vec<Vector2<f64>> = open.iter().map(start).collect();
     let costs = robots.iter().flat_map(|(_, robot)| starts.iter().map(move |start| (robot - start).norm_squared()));
     let costs = CostMatrix::new(costs.collect(), robots.len(), open.len())?;
-    let margin = Hysteresis { relative: keep_margin, absolute: NOISE * robots.len() as f64 };
+    let margin = Hysteresis { relative: seating.keep_margin, absolute: NOISE * robots.len() as f64 };
     let columns = reassign(&costs, &present_columns(robots, &open, present), margin)?;
     let seats: Vec<(usize, usize)> = columns.into_iter().map(|column| open[column]).collect();
-    let chains = (0..plan.queues.len()).map(|queue| seated_chain(plan, queue, robots, &seats));
+    let chains = (0..plan.queues.len()).map(|queue| seated_chain(plan, queue, robots, &seats, seating.order));
     Ok(chains.collect::<Result<Vec<_>, _>>()?.concat())
 }
 
@@ -116,12 +134,13 @@ fn present_columns(robots: &[(String, Vector2<f64>)], open: &[(usize, usize)], p
     robots.iter().map(column).collect::<Option<_>>().unwrap_or_default()
 }
 
-/// The robots of one queue in the order of 6.2.1.
+/// The robots of one queue in their order.
 fn seated_chain(
     plan: &Plan,
     queue: usize,
     robots: &[(String, Vector2<f64>)],
     seats: &[(usize, usize)],
+    order: ChainOrder,
 ) -> Result<Vec<Seated>, OrganiseError> {
     let team = robots.iter().zip(seats).filter(|(_, seat)| seat.0 == queue);
     let places: BTreeMap<&str, usize> = team.clone().map(|((name, _), seat)| (name.as_str(), seat.1)).collect();
@@ -129,9 +148,13 @@ fn seated_chain(
     let team_goal = plan.queues[queue].vertices.first().copied().unwrap_or_default();
     let segment = Placed::new(&plan.queues[queue].curve, Isometry2::identity());
     let chain = chain::organise(&team, team_goal, &segment)?;
+    let mut names = chain.names().to_vec();
+    if order == ChainOrder::Places {
+        names.sort_by_key(|name| places.get(name.as_str()).copied());
+    }
     let mut leader = None;
     let mut seated = Vec::with_capacity(team.len());
-    for (index, robot) in chain.names().iter().enumerate() {
+    for (index, robot) in names.iter().enumerate() {
         let next = leader.replace(robot.clone());
         // In a chain the rank is the place: nobody overtakes to a place further ahead.
         let place = match plan.queues[queue].chain {
@@ -158,25 +181,41 @@ mod tests {
         points.iter().enumerate().map(robot).collect()
     }
 
+    const SEATING: Seating = Seating { keep_margin: 0.2, order: ChainOrder::Nearest };
+
     /// Starts of experiment 2 (4.6).
     const SQUARE: [(f64, f64); 4] = [(0.15, 0.25), (0.95, 0.20), (0.20, 1.60), (0.90, 1.55)];
 
     #[test]
     fn the_square_of_4_6() {
-        let seats = organise(&plan("square"), &team(&SQUARE), &[], 0.2).unwrap();
+        let seats = organise(&plan("square"), &team(&SQUARE), &[], SEATING).unwrap();
         let told: Vec<_> = seats.iter().map(|seat| (seat.robot.as_str(), seat.queue, seat.place, seat.rank)).collect();
         let expected = [("robot2", 0, 1, 1), ("robot1", 0, 0, 2), ("robot4", 1, 1, 1), ("robot3", 1, 0, 2)];
         assert_eq!(told, expected, "robots nearest to the vertex (1.275, ..) lead their chains");
         assert_eq!(seats[1].leader.as_deref(), Some("robot2"));
     }
 
+    /// robot3 is nearer to robot1 than robot2 is, but farther from the second place: by 6.2.1 the two change sides.
+    #[test]
+    fn by_places_nobody_overtakes() {
+        let robots = team(&[(0.0, 0.0), (-0.3, 0.5), (-0.55, 0.0), (-1.2, 0.0)]);
+        let told = |order| -> Vec<String> {
+            let seats = organise(&plan("column"), &robots, &[], Seating { order, ..SEATING }).unwrap();
+            assert!(seats.iter().enumerate().all(|(index, seat)| seat.place == index && seat.rank == index + 1));
+            assert!(seats.windows(2).all(|pair| pair[1].leader.as_ref() == Some(&pair[0].robot)));
+            seats.into_iter().map(|seat| seat.robot).collect()
+        };
+        assert_eq!(told(ChainOrder::Nearest), ["robot1", "robot3", "robot2", "robot4"]);
+        assert_eq!(told(ChainOrder::Places), ["robot1", "robot2", "robot3", "robot4"]);
+    }
+
     #[test]
     fn noise_does_not_flap() {
         let plan = plan("square");
         // Two robots nearly as far from each other's places.
-        let before = organise(&plan, &team(&[(0.9, 0.501), (0.9, 0.2), (0.2, 1.6), (0.9, 1.5)]), &[], 0.2).unwrap();
+        let before = organise(&plan, &team(&[(0.9, 0.501), (0.9, 0.2), (0.2, 1.6), (0.9, 1.5)]), &[], SEATING).unwrap();
         let after =
-            organise(&plan, &team(&[(0.901, 0.5), (0.899, 0.2), (0.2, 1.6), (0.9, 1.5)]), &before, 0.2).unwrap();
+            organise(&plan, &team(&[(0.901, 0.5), (0.899, 0.2), (0.2, 1.6), (0.9, 1.5)]), &before, SEATING).unwrap();
         let places = |seats: &[Seated]| -> Vec<_> {
             let mut all: Vec<_> = seats.iter().map(|seat| (seat.robot.clone(), seat.queue, seat.place)).collect();
             all.sort();
@@ -188,20 +227,20 @@ mod tests {
     #[test]
     fn more_robots_than_places_and_robots_nowhere() {
         let five = team(&[SQUARE.as_slice(), &[(1.0, 1.0)]].concat());
-        assert!(organise(&plan("square"), &five, &[], 0.2).is_err());
-        assert!(organise(&plan("square"), &team(&[(f64::NAN, 0.0)]), &[], 0.2).is_err());
+        assert!(organise(&plan("square"), &five, &[], SEATING).is_err());
+        assert!(organise(&plan("square"), &team(&[(f64::NAN, 0.0)]), &[], SEATING).is_err());
     }
 
     #[test]
     fn fewer_robots_than_places() {
-        let seats = organise(&plan("square"), &team(&SQUARE[..3]), &[], 0.2).unwrap();
+        let seats = organise(&plan("square"), &team(&SQUARE[..3]), &[], SEATING).unwrap();
         assert_eq!(seats.len(), 3);
     }
 
     #[test]
     fn an_assignment_tells_its_seats() {
         let plan = plan("triangle");
-        let seats = organise(&plan, &team(&SQUARE[..3]), &[], 0.2).unwrap();
+        let seats = organise(&plan, &team(&SQUARE[..3]), &[], SEATING).unwrap();
         let assignment = Assignment { members: seats.iter().map(Seated::member).collect(), ..Default::default() };
         assert_eq!(Seated::of_assignment(&plan, &assignment), seats);
         let mut foreign = assignment;
@@ -212,11 +251,13 @@ mod tests {
     proptest! {
         #[test]
         fn everyone_has_a_place_of_their_own_and_a_rank(
-            points in proptest::collection::vec((0.0..2.4_f64, 0.0..1.8_f64), 0..5), keep in 0.0..1.0_f64,
+            points in proptest::collection::vec((0.0..2.4_f64, 0.0..1.8_f64), 0..5), keep_margin in 0.0..1.0_f64,
+            places in proptest::bool::ANY,
         ) {
+            let seating = Seating { keep_margin, order: if places { ChainOrder::Places } else { ChainOrder::Nearest } };
             let plan = plan("square");
             let robots = team(&points);
-            let seats = organise(&plan, &robots, &[], keep).unwrap();
+            let seats = organise(&plan, &robots, &[], seating).unwrap();
             prop_assert_eq!(seats.len(), robots.len());
             let mut places: Vec<_> = seats.iter().map(|seat| (seat.queue, seat.place)).collect();
             places.sort_unstable();
@@ -226,7 +267,7 @@ mod tests {
                 prop_assert_eq!(pair[1].rank, pair[0].rank + 1);
                 prop_assert_eq!(pair[1].leader.as_ref(), Some(&pair[0].robot));
             }
-            prop_assert_eq!(organise(&plan, &robots, &seats, keep).unwrap(), seats);
+            prop_assert_eq!(organise(&plan, &robots, &seats, seating).unwrap(), seats);
         }
     }
 }

@@ -98,7 +98,7 @@ impl LeaderAssignment {
         held.since = self.run.running().then_some(at.ros);
         // Positions that make no assignment are refused before anything changes.
         let known: Vec<(String, Vector2<f64>)> = self.positions(&held, at).unwrap_or_default();
-        organise(&held.plan, &known, &self.seats, self.settings.keep_margin).map_err(|error| error.to_string())?;
+        organise(&held.plan, &known, &self.seats, self.settings.seating).map_err(|error| error.to_string())?;
         let text = format!("{} with {} robots is in force", held.plan.name, held.robots.len());
         self.held = held;
         sink.publish(FORMATION, &self.held.stamped(at.ros));

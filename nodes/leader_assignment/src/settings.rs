@@ -1,7 +1,7 @@
 //! The parameters of leader_assignment.
 
-use crate::TargetLimits;
 use crate::team::TeamLimits;
+use crate::{ChainOrder, Seating, TargetLimits};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::Files;
 use trench_plan::{Frame, Plan, QueuePlan};
@@ -13,7 +13,7 @@ pub(crate) struct Settings {
     pub(crate) library: Vec<Plan>,
     /// All robots there are, in order of name.
     pub(crate) robots: Vec<String>,
-    pub(crate) keep_margin: f64,
+    pub(crate) seating: Seating,
     pub(crate) target: TargetLimits,
     pub(crate) team: TeamLimits,
     /// The robot that is the target; empty: /target says where it is.
@@ -30,6 +30,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string_list("robots", &[], "names of the robots that take part").read_only(),
         P::double("keep_margin", 0.2, "fraction by which a new assignment must be shorter to replace the present one")
             .range(0.0, 10.0),
+        P::string(
+            "chain.order",
+            "nearest",
+            "who is next in a chain: nearest, to the robot ahead (6.2.1), or places, as the places follow one another",
+        ),
         P::double("age.robot", 2.0, "s, for which a robot may be unseen, silent or out of reach before it has quit")
             .range(0.1, 3600.0),
         P::double("age.link", 0.5, "s, for which a follower may not hear its leader before it follows its goal")
@@ -83,7 +88,7 @@ impl Settings {
         let settings = Self {
             library,
             robots,
-            keep_margin: parameters.f64("keep_margin")?,
+            seating: seating(parameters)?,
             target: target_limits(parameters)?,
             team: team_limits(parameters)?,
             target_robot: parameters.str("target.robot")?.to_owned(),
@@ -91,6 +96,17 @@ impl Settings {
         };
         Ok((settings, plan))
     }
+}
+
+pub(crate) fn seating(parameters: &Parameters) -> Result<Seating, ConfigError> {
+    let order = match parameters.str("chain.order")? {
+        "nearest" => ChainOrder::Nearest,
+        "places" => ChainOrder::Places,
+        other => {
+            return Err(parameters.error("chain.order", format!("`{other}` is no order"), "write nearest or places"));
+        }
+    };
+    Ok(Seating { keep_margin: parameters.f64("keep_margin")?, order })
 }
 
 pub(crate) fn target_limits(parameters: &Parameters) -> Result<TargetLimits, ConfigError> {

@@ -279,6 +279,8 @@ fn what_cannot_be_is_refused_at_start() {
     let refused = |overrides: &[(&str, &str)]| make(overrides, None).map(drop).unwrap_err();
     assert!(refused(&[ROBOTS]).contains("no formation is given"));
     assert!(refused(&[FILE]).contains("no robot takes part"));
+    let order = refused(&[FILE, ROBOTS, ("chain.order", "nearest_first")]);
+    assert!(order.contains("chain.order") && order.contains("write nearest or places"), "{order}");
     let five = ("robots", "[a, b, c, d, e]");
     assert!(refused(&[FILE, five]).contains("5 robots, but the formation square has 4 places"));
     let twice = ("robots", "[robot1, robot2, robot1]");

@@ -1,23 +1,18 @@
 //! Stepping a chain.
+use super::act::{Part, View};
 use super::sight::Knowledge;
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
 use super::{ChainScenario, Encroaching, Outcome, ScenarioError};
 use crate::Vector2;
-use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surroundings};
+use crate::agent::Agent;
 use crate::hull::{ApparentObstacle, Obstacle, combine};
 use crate::kinematics::PointState;
-use crate::lanes::LANES;
-use crate::laws::RigidMotion;
 use crate::trench::Trench;
-use nalgebra::Isometry2;
 use std::sync::Arc;
 
 /// Robots below which a share is not worth a worker of its own.
 const LEAST_SHARE: usize = 128;
-
-/// How many robots ahead of those that act the segment is called for: pieces lie far apart in memory.
-const AHEAD: usize = 8;
 
 /// A chain under way.
 #[derive(Debug, Clone)]
@@ -205,138 +200,5 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             }
         }
         Ok(())
-    }
-}
-
-/// What all robots share until the next tick.
-struct View<'a, T> {
-    scenario: &'a ChainScenario<T>,
-    /// Time of the tick, s.
-    time: f64,
-    /// The segment's frame then.
-    frame: (Isometry2<f64>, RigidMotion),
-    real: &'a [Obstacle],
-    apparent: &'a [ApparentObstacle],
-    velocities: &'a [Vector2<f64>],
-    seen: &'a [PointState],
-    seen_deviations: &'a [f64],
-    seen_places: &'a [Vector2<f64>],
-    vicinity: &'a Vicinity,
-}
-
-/// Robots that act one after the other, from the one of index `first` on, and what comes of it.
-struct Part<'a, T> {
-    first: usize,
-    agents: &'a mut [Agent<T>],
-    robots: &'a mut [PointState],
-    outcomes: &'a mut [Outcome],
-    deviations: &'a mut [f64],
-    places: &'a mut [Vector2<f64>],
-}
-
-impl<T: Trench> View<'_, T> {
-    /// One step of some robots.
-    fn act(&self, since: f64, part: Part<'_, T>) {
-        let step = self.scenario.step;
-        let mut around = self.around(part.first);
-        let moment = around.moment(since);
-        let Some(settings) = part.agents.first().map(Agent::shared) else { return };
-        let tells = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndPlaces(_));
-        let robots = part.robots.chunks_mut(LANES);
-        let outcomes = part.outcomes.chunks_mut(LANES).zip(part.deviations.chunks_mut(LANES));
-        let mut later = part.agents;
-        for (first, (robots, (outcomes, deviations))) in (part.first..).step_by(LANES).zip(robots.zip(outcomes)) {
-            let (agents, rest) = later.split_at_mut(robots.len());
-            later = rest;
-            for agent in later.iter().skip(AHEAD).step_by(2).take(2) {
-                agent.call_for(&self.scenario.segment);
-            }
-            let abreast = self.abreast(&settings, &moment, first, agents, robots);
-            let several = agents.iter_mut().zip(robots).zip(outcomes.iter_mut().zip(deviations));
-            for (lane, ((agent, robot), (outcome, deviation))) in several.enumerate() {
-                if let Some(abreast) = abreast.as_ref().filter(|abreast| abreast.tells(lane)) {
-                    let (acceleration, cut) = abreast.applied(lane);
-                    let (foot, distance) = abreast.drawn(lane);
-                    let (steered, drawn) = (abreast.steered(lane), Some(foot));
-                    *robot = robot.advanced_semi_implicit(acceleration, step);
-                    *outcome = Outcome { steered, acceleration, cut, attraction: drawn };
-                    *deviation = distance;
-                    continue;
-                }
-                let index = first + lane;
-                self.stand_at(&mut around, index);
-                let action = agent.act_at(&around, &moment, *robot, step);
-                let wanted = action.acceleration;
-                let acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
-                *robot = robot.advanced_semi_implicit(acceleration, step);
-                let (steered, cut) = (action.steered, action.cut);
-                *outcome = Outcome { steered, acceleration, cut, attraction: action.attraction };
-                if tells {
-                    part.places[index - part.first] = action.place.unwrap_or(robot.position);
-                }
-                if action.deviation.is_finite() {
-                    *deviation = action.deviation;
-                }
-            }
-        }
-    }
-
-    /// What robots side by side do, from the one of index `first` on, if that can be told of them together.
-    #[inline]
-    fn abreast(
-        &self,
-        settings: &AgentSettings<T>,
-        moment: &Moment<'_>,
-        first: usize,
-        agents: &mut [Agent<T>],
-        robots: &[PointState],
-    ) -> Option<Abreast> {
-        let (agents, robots) = (agents.try_into().ok()?, robots.try_into().ok()?);
-        let cut = self.scenario.potential.cut();
-        let leader = |lane: usize| (first + lane).saturating_sub(1);
-        let side = Side {
-            time: self.time,
-            moment,
-            leaders: core::array::from_fn(|lane| self.seen[leader(lane)]),
-            deviations: core::array::from_fn(|lane| self.seen_deviations[leader(lane)]),
-            alone: core::array::from_fn(|lane| first + lane > 0 && self.vicinity.is_alone(first + lane, cut)),
-        };
-        Agent::act_abreast(settings, agents, robots, &side, self.scenario.step)
-    }
-
-    /// The surroundings of a robot at the tick.
-    fn around(&self, index: usize) -> Surroundings<'_> {
-        let (map_from_segment, motion) = self.frame;
-        let mut around = Surroundings {
-            time: self.time,
-            curve: &self.scenario.segment,
-            map_from_segment,
-            motion,
-            goal: None,
-            leader: None,
-            ahead: &[],
-            places: &[],
-            behind: 0,
-            real: self.real,
-            apparent: self.apparent,
-            velocities: self.velocities,
-            clear: 0.0,
-        };
-        self.stand_at(&mut around, index);
-        around
-    }
-
-    /// Makes the surroundings of one robot those of another.
-    #[inline(always)]
-    fn stand_at<'a>(&'a self, around: &mut Surroundings<'a>, index: usize) {
-        let goal = self.scenario.team_goal.filter(|_| index == 0);
-        around.goal = goal.map(|goal| around.motion.at(around.map_from_segment.transform_point(&goal.into()).coords));
-        around.leader = index
-            .checked_sub(1)
-            .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] });
-        around.clear = self.vicinity.clear(index);
-        around.ahead = self.vicinity.ahead(self.seen, index);
-        around.places = &self.seen_places[..index];
-        around.behind = self.seen.len() - index - 1;
     }
 }

@@ -14,6 +14,18 @@ pub enum Integration {
     SemiImplicitEuler,
 }
 
+impl Integration {
+    /// A robot's state after `step` (s) of the acceleration that it had at the step's beginning; by the exact solution
+    /// under [`RungeKutta`](Self::RungeKutta), too, which does not hold it.
+    #[inline]
+    pub(super) fn held(self, robot: PointState, acceleration: Vector2<f64>, step: f64) -> PointState {
+        match self {
+            Self::SemiImplicitEuler => robot.advanced_semi_implicit(acceleration, step),
+            Self::Exact | Self::RungeKutta => robot.advanced(acceleration, step),
+        }
+    }
+}
+
 /// What integrates one team; it keeps its buffers, so that steps allocate nothing.
 #[derive(Debug, Clone)]
 pub(super) struct Integrator {
@@ -40,9 +52,8 @@ impl Integrator {
         let (step, [a, b, c, d]) = (self.step, &mut self.rates);
         law(time, robots, a);
         match self.method {
-            Integration::Exact => robots.iter_mut().zip(a).for_each(|(robot, a)| *robot = robot.advanced(*a, step)),
-            Integration::SemiImplicitEuler => {
-                robots.iter_mut().zip(a).for_each(|(robot, a)| *robot = robot.advanced_semi_implicit(*a, step));
+            held @ (Integration::Exact | Integration::SemiImplicitEuler) => {
+                robots.iter_mut().zip(a).for_each(|(robot, a)| *robot = held.held(*robot, *a, step));
             }
             Integration::RungeKutta => {
                 let half = 0.5 * step;

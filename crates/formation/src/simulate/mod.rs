@@ -2,8 +2,9 @@
 //! [`Regulation`] 4.4, [`GoalTeam`] 5.6, [`ZonedChain`] 6.5.
 //!
 //! Nothing is drawn at random and sums have a fixed order: the same scenario gives the same bytes. In a [`ChainSimulation`],
-//! semi-implicit Euler in fixed steps, what robots know of one another is sampled at ticks of several steps; steps allocate
-//! nothing while the segment, or what encroaches on it, rests.
+//! whose accelerations are held for fixed steps, what robots know of one another is sampled at ticks of several steps; steps
+//! allocate nothing while the segment, or what encroaches on it, rests.
+mod act;
 mod carriage;
 mod chain;
 mod goal_team;

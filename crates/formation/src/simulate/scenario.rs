@@ -1,5 +1,5 @@
 //! What is simulated.
-use super::{Carriage, Sight};
+use super::{Carriage, Integration, Sight};
 use crate::Vector2;
 use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
 use crate::curve::Curve;
@@ -61,6 +61,9 @@ pub struct Options {
     pub safety: Option<Stopping>,
     /// How far the team sees the boundaries of obstacles, which rest; without it all are known (Remark 7.4.1).
     pub sight: Option<Sight>,
+    /// How accelerations, held for a step, become motion. Runge-Kutta would ask robots that remember, and forces that jump,
+    /// between two steps: it is refused.
+    pub integration: Integration,
 }
 
 /// A scenario that cannot be run.
@@ -84,6 +87,9 @@ pub enum ScenarioError {
     /// A step or tick that advances nothing.
     #[error("step is {0} s and steps_per_tick is {1}: both must be positive")]
     Step(f64, u32),
+    /// A method of integration that does not suit the chain.
+    #[error("{0:?} does not suit {1}: take another method")]
+    Integration(Integration, &'static str),
     /// Boundaries that are seen piece by piece while their obstacle moves.
     #[error("obstacles that move cannot be seen piece by piece: let them rest, or have all boundaries known")]
     SightOfMoving,
@@ -161,6 +167,17 @@ impl<T> ChainScenario<T> {
         }
         if !self.options.obstacle_velocities.iter().copied().all(finite) {
             return Err(ScenarioError::NotFinite("the velocity of an obstacle"));
+        }
+        match (self.options.integration, self.options.safety) {
+            (Integration::RungeKutta, _) => {
+                let what = "forces that jump at obstacles, nor robots that remember";
+                return Err(ScenarioError::Integration(Integration::RungeKutta, what));
+            }
+            (Integration::Exact, Some(_)) => {
+                let what = "the safety filter, whose room is that of semi-implicit steps";
+                return Err(ScenarioError::Integration(Integration::Exact, what));
+            }
+            _ => {}
         }
         self.seeking.check()?;
         if self.options.sight.is_some() && self.moves() {

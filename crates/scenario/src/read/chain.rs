@@ -95,6 +95,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
             sidesteps: map.get_or("sidesteps", false)?,
             obstacle_velocities: velocities,
             sight: map.opt_map("sight")?.map(|map| sight(&map)).transpose()?,
+            integration: timing.integration,
             ..Options::default()
         },
         step: timing.step,
@@ -112,6 +113,7 @@ fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>
             ScenarioError::StartInZoneOne(_, rank, _) | ScenarioError::StartInObstacle(rank, _) => {
                 robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
             }
+            ScenarioError::Integration(..) => map.error("method", text, "write semi_implicit_euler"),
             ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
             ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),

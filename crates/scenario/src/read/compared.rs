@@ -8,7 +8,7 @@ use trench_formation::Vector2;
 use trench_formation::avoidance::ComparedRepulsion;
 use trench_formation::compared::{AnyGuide, Course, InstantGoals, VirtualObstacles};
 use trench_formation::curve::Placed;
-use trench_formation::simulate::ChainScenario;
+use trench_formation::simulate::{ChainScenario, Integration};
 use trench_formation::trench::AnyTrench;
 
 /// Each method takes the robot from the same start, among the same walls, to the point that is nearest there.
@@ -16,6 +16,10 @@ pub(super) fn read(root: &Map<'_>, map: &Map<'_>, chain: &ChainScenario<AnyTrenc
     let ([robot], Some(remedies)) = (&chain.robots[..], chain.remedies) else {
         return Err(root.error("compared", "is for one robot with remedies", "give one robot, and remedies"));
     };
+    if chain.options.integration != Integration::SemiImplicitEuler {
+        let problem = "is not the method by which the others are driven";
+        return Err(root.error("method", problem, "write semi_implicit_euler"));
+    }
     let segment = Placed::new(&chain.segment, chain.carriage.at(0.0).0);
     let course = Course {
         goal: segment.nearest(robot.position).point,

@@ -89,9 +89,9 @@ fn timing(map: &Map<'_>, kind: Kind) -> Result<Timing, ConfigError> {
     ];
     let integration = map.one_of("method", &methods)?;
     match (kind, integration) {
-        (Kind::Nearest, Integration::Exact | Integration::RungeKutta) => {
+        (Kind::Nearest, Integration::RungeKutta) => {
             let problem = "does not suit forces that jump at obstacles, nor robots that remember";
-            return Err(map.error("method", problem, "write semi_implicit_euler"));
+            return Err(map.error("method", problem, "write semi_implicit_euler or exact"));
         }
         (Kind::Regulation, Integration::SemiImplicitEuler) => {
             return Err(map.error("method", "is for accelerations", "write exact or rk4"));
