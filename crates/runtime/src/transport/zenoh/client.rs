@@ -10,7 +10,7 @@ use std::time::Duration;
 use zenoh::Wait;
 use zenoh::key_expr::KeyExpr;
 use zenoh::liveliness::LivelinessToken;
-use zenoh::qos::CongestionControl;
+use zenoh::qos::{CongestionControl, Priority};
 use zenoh::query::{ConsolidationMode, QueryTarget, Reply};
 
 /// Responses that wait for the loop.
@@ -18,6 +18,10 @@ const WAITING: usize = 64;
 
 /// When Zenoh forgets a query: after the node has given up the call.
 const FORGOTTEN: Duration = Duration::from_secs(10);
+
+/// Requests, and with them their responses, go before the messages of topics: they are few and short, whoever asks another host's
+/// time knows it the better the sooner the answer comes, and what waits behind images is dropped with them.
+const PRIORITY: Priority = Priority::InteractiveHigh;
 
 /// Sends requests and takes their responses.
 pub(super) struct ZenohClient {
@@ -67,6 +71,8 @@ impl ServiceClient for ZenohClient {
             .target(QueryTarget::AllComplete)
             .consolidation(ConsolidationMode::None)
             .congestion_control(CongestionControl::Drop)
+            .priority(PRIORITY)
+            .express(true)
             .timeout(FORGOTTEN)
             .callback(move |reply| outlet.put(reply))
             .wait()

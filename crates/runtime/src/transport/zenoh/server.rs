@@ -61,8 +61,9 @@ impl ServiceServer for ZenohServer {
     fn respond(&mut self, request: PendingRequest, response: Bytes) -> Result<(), NotSent> {
         if let Some(query) = self.pending.remove(&request) {
             let attachment = Attachment { count: request.count, gid: request.client }.to_bytes();
+            let reply = query.reply(query.key_expr().clone(), response).attachment(attachment).express(true);
             // A client that has gone does not miss its answer.
-            let _gone = query.reply(query.key_expr().clone(), response).attachment(attachment).wait();
+            let _gone = reply.wait();
         }
         Ok(())
     }
