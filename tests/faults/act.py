@@ -10,13 +10,18 @@ from pathlib import Path
 
 import inject
 from hosts import BASE
-from launched import PATIENCE, Launched
+from launched import APART, PATIENCE, Launched
+
+# s, for which the bed is watched after the launcher's death.
+ALONE = 3.0
 
 
 def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
     """Whatever the fault says."""
     if "kill" in fault:
         return kill(fault, launched)
+    if "dies" in fault:
+        return dies(fault, launched)
     if "double" in fault:
         return double(fault, launched)
     if "pause" in fault:
@@ -70,10 +75,11 @@ class Watch:
 
 def kill(fault: dict, launched: Launched) -> tuple[float, float]:
     """kill -9; over when the victim lives again."""
-    others = list(launched.processes().values())
+    others = [pid for label, pid in launched.processes().items() if not label.startswith(f"{APART}:")]
     before = launched.all_logs().count("process started with pid")
     pid = launched.pid_of(fault["kill"])
     watch = Watch(fault, launched, pid, "has died")
+    fault["pid"] = pid
     os.kill(pid, signal.SIGKILL)
     began = time.time()
     try:
@@ -86,6 +92,8 @@ def killed(fault: dict, launched: Launched, others: list[int], before: int, bega
     """Waits until the victim lives again, or the others do not."""
     if fault.get("ends"):
         fault["alive_after"] = outlive(others)
+        # The bed goes on, and shows what robots do.
+        time.sleep(max(0.0, began + ALONE - time.time()))
     elif not fault.get("gone"):
         deadline = time.monotonic() + 5.0
         while launched.all_logs().count("process started with pid") <= before and time.monotonic() < deadline:
@@ -113,15 +121,23 @@ def double(fault: dict, launched: Launched) -> tuple[float, float]:
 
 
 def second(fault: dict, launched: Launched) -> tuple[float, float]:
-    """The same command line once more on another host, where no lease is held, for a while."""
+    """The same command line once more for a while, on another host or as another node, where no lease is held."""
     pid = launched.pid_of(fault["second"])
     line = Path(f"/proc/{pid}/cmdline").read_bytes().decode().strip("\0").split("\0")
-    other = launched.start(fault["host"], Path(line[0]).name, *line[1:])
+    host, program = fault.get("host", BASE), Path(line[0]).name
+    if "as" in fault:
+        line = [re.sub("^__node:=.*", f"__node:={fault['as']}", word) for word in line]
     began = time.time()
-    time.sleep(fault["for"])
+    other = launched.start(host, program, *line[1:])
+    log = launched.folder / f"{host}-{program}.log"
+    while time.time() < began + fault["for"]:
+        if "reported" not in fault and "another process uses it" in log.read_text(encoding="utf-8", errors="replace"):
+            fault["reported"] = time.time() - began
+        time.sleep(0.01)
+    ended = time.time()
     other.send_signal(signal.SIGINT)
     other.wait(PATIENCE)
-    return began, time.time()
+    return began, ended
 
 
 def serial(fault: dict, launched: Launched) -> tuple[float, float]:
@@ -135,7 +151,8 @@ def serial(fault: dict, launched: Launched) -> tuple[float, float]:
 
 def fill(fault: dict, launched: Launched) -> tuple[float, float]:
     """The disk of the recorder is full."""
-    watch = Watch(fault, launched, launched.pid_of(fault["victim"]), "has died")
+    fault["pid"] = launched.pid_of(fault["victim"])
+    watch = Watch(fault, launched, fault["pid"], "has died")
     began = time.time()
     with open(launched.disk / "filler", "wb", buffering=0) as filler:
         try:
@@ -172,6 +189,17 @@ def pause(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, fl
     ended = time.time()
     watch.end()
     return began, ended
+
+
+def dies(fault: dict, launched: Launched) -> tuple[float, float]:
+    """A process is dead for a while: it does nothing, and is only then killed, so that its launcher starts another."""
+    pid = launched.pid_of(fault["dies"])
+    began = time.time()
+    os.kill(pid, signal.SIGSTOP)
+    time.sleep(fault["for"])
+    killed = kill(fault | {"kill": fault["dies"]}, launched)
+    fault["pid"] = pid
+    return began, killed[1]
 
 
 def network(fault: dict, launched: Launched) -> tuple[float, float]:

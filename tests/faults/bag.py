@@ -53,8 +53,11 @@ class Run:
         self.clocks = clocks
         self.truth: dict[str, Series] = {}
         self.commands: dict[str, Series] = {}
-        # What the latest command up to then rests on: its stamp, s.
+        # Stamps of all commands of the robots' own controllers, in the order in which they came, s, and the latest of them up to then.
+        self.stamps: dict[str, Series] = {}
         self.basis: dict[str, Series] = {}
+        # Of each robot in each assignment: its queue, its rank and whom it follows.
+        self.assignments = Series()
         # Ages of images that came, s.
         self.images = Series()
         self.goals = Series()
@@ -92,17 +95,25 @@ class Run:
         elif topic == "/ground_truth/contacts":
             self.contacts += [(self._time(message.header.stamp, at), status.message) for status in message.status]
         elif parts[-1] == "cmd_vel":
+            # What strangers say (inject.py) does not drive: nobody may count it as a reason why a robot moves.
+            if message.header.frame_id != f"{parts[0]}/base_link":
+                return
             self.commands.setdefault(parts[0], Series()).add(at, (message.twist.linear.x, message.twist.angular.z))
             basis = self.basis.setdefault(parts[0], Series())
             stamp = self._time(message.header.stamp, at)
-            # What is from the future comes from nobody of ours.
-            basis.add(at, max(stamp if stamp <= at else 0.0, basis.values[-1] if basis.values else 0.0))
+            self.stamps.setdefault(parts[0], Series()).add(at, stamp)
+            basis.add(at, max(stamp, basis.values[-1] if basis.values else 0.0))
+        elif topic == "/assignment":
+            if message.epoch < FOREIGN_EPOCH:
+                self.assignments.add(at, {member.robot: (member.queue, member.rank, member.leader) for member in message.members})
         elif parts[-1] == "image_raw":
             self.images.add(at, at - self._time(message.header.stamp, at))
         elif topic == "/goals":
             if message.epoch < FOREIGN_EPOCH:
                 goals = {goal.robot: (goal.position.x, goal.position.y) for goal in message.goals}
                 self.goals.add(self._time(message.header.stamp, at), goals)
+        elif topic == "/run_state" and message.epoch >= FOREIGN_EPOCH:
+            return
         elif topic == "/run_state" and message.state == 3:
             self.stopped = self.stopped or at
         elif topic == "/run_state" and message.state == 2 and seconds(message.t0) > 0.0:
@@ -133,8 +144,15 @@ class Run:
             return None
         return math.hypot(goals[robot][0] - state[0], goals[robot][1] - state[1])
 
-    def is_driven(self, robot: str, at: float) -> bool:
-        """Whether it moves, or is where it is to be."""
-        moves = any(state[2] > STANDS for _, state in self.truth[robot].between(at - 0.5, at))
-        distance = self.distance(robot, at)
-        return moves or (distance is not None and distance < NEAR)
+    def goal_speed(self, robot: str, at: float) -> float:
+        """Of a robot's goal point, m/s; none stands still of whom nothing is said."""
+        ways = [(time, goals[robot]) for time, goals in self.goals.between(at - 0.2, at) if robot in goals]
+        if len(ways) < 2:
+            return math.inf
+        (began, start), (ended, end) = ways[0], ways[-1]
+        return math.dist(start, end) / (ended - began)
+
+    def nearest(self, robot: str, start: float, end: float) -> float:
+        """How near the middle of another robot comes to that of this one, m."""
+        others = [series for name, series in self.truth.items() if name != robot]
+        return min((math.dist(state[:2], there[:2]) for at, state in self.truth[robot].between(start, end) for series in others if (there := series.at(at))), default=math.inf)

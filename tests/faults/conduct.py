@@ -57,7 +57,7 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
     lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
     evidence = judge.Evidence(
         bag=folder / "bag", log=launched.all_logs(), exit_code=code, memory=memory, alive_after=max(lived, default=None),
-        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen,
+        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap,
     )
     return judge.judge(run, windows, evidence)
 

@@ -7,19 +7,27 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from bag import NEAR, STANDS, TURNS, Run, Series
+import wheels
+from bag import NEAR, Run
+from motion import AGE, allowed, burst, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
 DIAGNOSTIC = 0.5
-# s, from a fault's beginning to standstill where control cannot be safe: 0.25 s of old information, braking from 0.1 m/s.
-STANDSTILL = 0.6
+# s, before a fault's beginning, in which nothing may say what names it, and by how much the bed may tell of its beginning later than
+# nodes do that met it.
+BEFORE, LATE = 0.8, 0.1
 # s, from a fault's end until every robot is driven again, and until the formation stands again.
 RECOVERY, FORMATION = 2.0, 10.0
+# s, in which a robot drives again that a restarted process drives, and from a robot's silence to an assignment without it: 2 s
+# (`age.robot`), looked at once a second.
+RESUMED, QUIT = 1.0, 3.0
+# s, within which a robot moves that is driven, and m/s, below which a goal point rests.
+LATELY, RESTS = 0.5, 0.005
 # rad/s and m/s, beyond which no command goes.
 LIMITS = (0.31, 5.0)
-# What is published where a fault does this are commands of somebody else, too.
-FOREIGN = ("foreign_command", "not_numbers", "past_and_future", "wrong_sizes")
+# m, between the middles of two robots that touch.
+TOUCH = 0.16
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
 # s, the longest gap in the bag.
@@ -45,6 +53,7 @@ class Evidence:
     own_bag: Path
     binaries: Path
     seen: Path
+    tap: Path
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -79,14 +88,23 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         return verdict
     # What is carried to touch somebody does so at once.
     since = began + (0.2 if fault.get("touches") else 0.0)
-    contacts = [text for at, text in bag.contacts if since <= at <= ended + FORMATION]
+    if fault.get("touches") and bag.nearest(fault["touches"], began, since) > TOUCH:
+        verdict.problems.append(f"{fault['touches']} touched nobody")
+    contacts = [text for at, text in bag.contacts if since <= at <= min(ended + FORMATION, following)]
     if contacts:
         verdict.problems.append(f"contact: {contacts[0]}")
-    diagnose(bag, fault, began + fault.get("later", 0.0), evidence, verdict)
+    diagnose(bag, fault, began, evidence, verdict)
+    stopped = sorted(bag.truth) if fault.get("stops") or fault.get("ends") else fault.get("halts", [])
+    resting = [robot for robot in stopped if not any(moves(state) for _, state in bag.truth[robot].between(began - 1.0, began))]
+    if resting:
+        verdict.problems.append(f"{', '.join(resting)} stood before it: that they stand says nothing")
     if fault.get("ends"):
         if evidence.alive_after is None or evidence.alive_after > ORPHANED:
             verdict.problems.append(f"nodes lived on for {evidence.alive_after} s")
-        verdict.stood = standstill(bag, sorted(bag.truth), began, began + ORPHANED)
+        # The bed lives on: what robots do without anybody can be seen.
+        verdict.stood = standstill(bag, stopped, began, began + 2.0 * ORPHANED)
+        if verdict.stood is None or verdict.stood > ORPHANED:
+            verdict.problems.append(f"robots did not stand within {ORPHANED} s")
         return verdict
     if "double" in fault and fault["code"] != TAKEN:
         verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
@@ -97,13 +115,21 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         waits = [later - earlier for earlier, later in zip([began, *came], [*came, ended])]
         if max(waits) > fault["images"]:
             verdict.problems.append(f"no image came for {max(waits):.1f} s")
-    stopped = sorted(bag.truth) if fault.get("stops") else fault.get("halts", [])
     if stopped:
         verdict.stood = standstill(bag, stopped, began, ended)
-        if verdict.stood is None or verdict.stood > STANDSTILL:
-            verdict.problems.append(f"{', '.join(stopped)} did not stand within {STANDSTILL} s")
+        most = max(allowed(bag.truth[robot], began, fault.get("age", AGE)) for robot in stopped)
+        if verdict.stood is None or verdict.stood > most:
+            told = "never" if verdict.stood is None else f"after {verdict.stood:.2f} s"
+            verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
+    if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
+        verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
     if "kill" in fault:
         verdict.rested = rest(bag, began, min(began + FORMATION, following))
+        if verdict.rested > ended - began + RESUMED:
+            verdict.problems.append(f"a robot rested for {verdict.rested:.2f} s, and the victim lived again after {ended - began:.2f} s")
+    if "pause" in fault:
+        verdict.problems += burst(bag, ended)
+    structure(bag, fault, (began, ended, min(ended + FORMATION, following)), verdict)
     recover(bag, ended, min(ended + FORMATION, following), verdict, settles=not fault.get("unsettled"))
     return verdict
 
@@ -118,47 +144,58 @@ def lost_at(evidence: Evidence, began: float) -> float:
 
 
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
-    """When the fault was named, if anybody can know of it (a reason why not is told by `unnamed`)."""
+    """When the fault was named, if anybody can know of it (a reason why not is told by `unnamed`); before, it must not have been."""
     pattern = fault.get("says")
+    harm = began + fault.get("later", 0.0)
     if "warns" in fault:
         pattern = fault["warns"]
         lines = re.findall(r"\[(?:WARN|ERROR)\] \[(\d+\.\d+)\] \[[\w.]+\]: (.*)", evidence.log)
-        times = [float(at) - began for at, text in lines if float(at) >= began and re.search(pattern, text)]
+        times = [float(at) - harm for at, text in lines if float(at) >= began - BEFORE and re.search(pattern, text)]
     elif pattern in REPORTERS:
         times = [fault["reported"]] if "reported" in fault else []
     elif pattern is not None:
-        times = [at - began for at, text, level in bag.diagnostics if at >= began and level != OK and re.search(pattern, text)]
+        said = [at for at, text, level in bag.diagnostics if level != OK and re.search(pattern, text)]
+        times = [at - harm for at in said if at >= began - BEFORE]
     else:
         if "unnamed" not in fault:
             verdict.problems.append("the matrix does not say what names it, or why nobody can")
         return
     verdict.diagnosed = min(times, default=None)
+    if verdict.diagnosed is not None and verdict.diagnosed < began - harm - LATE:
+        verdict.problems.append(f"{pattern!r} was said {-verdict.diagnosed:.2f} s before it, too: it does not name it")
     if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
         verdict.problems.append(f"nothing like {pattern!r} named it within {DIAGNOSTIC} s")
 
 
-def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float | None:
-    """How long after the beginning the last of the robots stood for the rest of the fault; none if it never did."""
-    latest = 0.0
-    for robot in robots:
-        moving = [at for at, state in bag.truth[robot].between(began, ended) if state[2] > STANDS or abs(state[3]) > TURNS]
-        if moving and moving[-1] > ended - 0.04:
-            return None
-        latest = max(latest, moving[-1] - began if moving else 0.0)
-    return latest
-
-
-def rest(bag: Run, began: float, until: float) -> float:
-    """How long a robot stood at most that then moved on: at the end of its way it stands for good."""
-    longest = 0.0
-    for series in bag.truth.values():
-        since = None
-        for at, state in series.between(began, until):
-            if state[2] <= STANDS and abs(state[3]) <= TURNS:
-                since = at if since is None else since
-            elif since is not None:
-                longest, since = max(longest, at - since), None
-    return longest
+def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
+    """What the assignments must say: with `keeps` they stay as they are, without the robot that `quits` the others close up."""
+    began, ended, until = window
+    before = bag.assignments.at(began) or {}
+    if fault.get("keeps"):
+        changed = [made for _, made in bag.assignments.between(began, until) if made != before]
+        if not before or changed:
+            verdict.problems.append(f"the assignment did not stay: {before} became {changed[:1]}")
+    robot = fault.get("quits")
+    if robot is None:
+        return
+    queue, rank, _ = before.get(robot, (0, 0, ""))
+    if rank != 1:
+        verdict.problems.append(f"{robot} did not lead before: {before}")
+    gone = next(((at, made) for at, made in bag.assignments.between(began, ended) if robot not in made), None)
+    if gone is None or gone[0] - began > QUIT:
+        verdict.problems.append(f"{robot} had not quit the assignment after {QUIT} s: {gone}")
+        return
+    left = bag.assignments.at(ended)
+    others = {name for name, (its, _, _) in before.items() if its == queue} - {robot}
+    places = sorted((rank, name, leader) for name, (its, rank, leader) in left.items() if its == queue)
+    chain = [name for _, name, _ in places]
+    if set(chain) != others or [rank for rank, _, _ in places] != list(range(1, len(others) + 1)):
+        verdict.problems.append(f"those behind {robot} did not close up: {left}")
+    if [leader for _, _, leader in places] != ["", *chain[:-1]]:
+        verdict.problems.append(f"they do not follow one another: {places}")
+    again = next((at for at, made in bag.assignments.between(ended, until) if robot in made), None)
+    if again is None:
+        verdict.problems.append(f"{robot} has no rank again by {until - ended:.1f} s after its return")
 
 
 def since_when(holds, ended: float, until: float) -> float | None:
@@ -174,7 +211,15 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: boo
     """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it."""
     robots = sorted(bag.truth)
     until = min(until, max(series.times[-1] for series in bag.truth.values()), bag.stopped or math.inf)
-    verdict.recovered = since_when(lambda at: all(bag.is_driven(robot, at) for robot in robots), ended, until)
+
+    def is_driven(robot: str, at: float) -> bool:
+        # What it did before the end of the fault does not count.
+        since = max(ended, at - LATELY)
+        driven = any(moves(state) for _, state in bag.truth[robot].between(since, at))
+        distance, speed = bag.distance(robot, at), bag.goal_speed(robot, at)
+        return driven or (distance is not None and distance < NEAR and speed < RESTS)
+
+    verdict.recovered = since_when(lambda at: all(is_driven(robot, at) for robot in robots), ended, until)
     if verdict.recovered is None or verdict.recovered > RECOVERY:
         verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
     if not settles:
@@ -190,32 +235,15 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: boo
         verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 
-def stale(bag: Run, heard: dict[str, Series]) -> list[str]:
-    """Robots that move although all that their commands rest on, as they were heard, is too old: 0.25 s, and the time to brake."""
-    problems = []
-    for robot, series in bag.truth.items():
-        basis = heard.get(robot, Series())
-        for at, state in series.between(bag.t0 or math.inf, bag.stopped or math.inf):
-            newest = basis.at(at)
-            if state[2] > STANDS and (newest is None or at - newest > STANDSTILL):
-                problems.append(f"{robot} moves at {at - bag.t0:.2f} s on information of {at - (newest or 0.0):.2f} s ago")
-                break
-    return problems
-
-
 def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     """What is wrong with the run as a whole."""
     problems = []
     for robot, series in bag.commands.items():
-        foreign = any(fault.get("publish") in FOREIGN for fault in run["faults"])
         # Written so that what is no number is beyond too.
         beyond = [value for value in series.values if not (abs(value[0]) <= LIMITS[0] and abs(value[1]) <= LIMITS[1])]
-        if beyond and not foreign:
+        if beyond:
             problems.append(f"a command for {robot} is beyond its limits: {beyond[0]}")
-    victims = {str(fault.get("kill", fault.get("victim", ""))).split("/")[-1] for fault in run["faults"]} - {""}
-    for label, status in re.findall(r"\[([\w/.-]+)\]: process has died \[pid \d+, ([^\]]*)\]", evidence.log):
-        if label.rsplit("-", 1)[0] not in victims and "operator" not in label:
-            problems.append(f"{label} died too: {status}")
+    problems += exits(bag, run, evidence.log)
     if not any(fault.get("ends") for fault in run["faults"]) and evidence.exit_code != 0:
         problems.append(f"the run ended with {evidence.exit_code}")
     if len(evidence.memory) == 2:
@@ -223,8 +251,24 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
+    if run.get("line"):
+        problems += wheels.unfounded(bag, evidence.tap)
     problems += stale(bag, Run(evidence.seen).basis if evidence.seen.exists() else bag.basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")
+    return problems
+
+
+def exits(bag: Run, run: dict, log: str) -> list[str]:
+    """Processes that ended, however, before the operator ended the run, and were no victims; and an operator that did too soon."""
+    victims = {fault["pid"] for fault in run["faults"] if "pid" in fault}
+    ends = re.findall(r"\[\w+\] \[(\d+\.\d+)\] \[([\w/.-]+)\]: process has (died|finished cleanly) \[pid (\d+)(?:, ([^\]]*))?\]", log)
+    over = min((float(at) for at, label, *_ in ends if label.startswith("operator-")), default=math.inf)
+    problems = []
+    for at, label, how, pid, status in ends:
+        if float(at) < over and int(pid) not in victims:
+            problems.append(f"{label} ended too: {how} {status}")
+    if bag.t0 and over < bag.t0 + float(run["arguments"]["duration"]) - 0.5:
+        problems.append(f"the operator ended {over - bag.t0:.1f} s after the start")
     return problems

@@ -1,19 +1,23 @@
 """A serial line between test bed and bridge that somebody can unplug.
 
-usage: line.py FAR NEAR
+usage: line.py FAR NEAR TAP
 
-FAR is the test bed's end, which may not be there yet; NEAR is a link to a pseudo-terminal that the bridge opens. Each line on
+What the bridge says is kept in TAP, each piece behind its time and length (wheels.py). FAR is the test bed's end, which may not be there yet; NEAR is a link to a pseudo-terminal that the bridge opens. Each line on
 standard input is `out` or `in`: unplugged, the device of NEAR is gone. Ends with its standard input.
 """
 
 import os
 import pty
 import select
+import struct
 import sys
 import termios
 import time
 import tty
+from typing import BinaryIO
 
+# In front of each piece: when it was said, s, and its length (as in wheels.py, whose modules are none of this process's concern).
+PIECE = struct.Struct("<dI")
 # How often a FAR that is not there is looked for, s.
 RETRY = 0.05
 
@@ -49,12 +53,14 @@ class Near:
         self.ends = ()
 
 
-def copy(source: int, target: int | None) -> bool:
+def copy(source: int, target: int | None, tap: BinaryIO | None = None) -> bool:
     """What there is; without a target it is lost. False where the source has gone."""
     try:
         data = os.read(source, 4096)
     except OSError:
         return False
+    if tap:
+        tap.write(PIECE.pack(time.time(), len(data)) + data)
     try:
         if target is not None:
             os.write(target, data)
@@ -65,7 +71,7 @@ def copy(source: int, target: int | None) -> bool:
 
 def main() -> None:
     """Until standard input ends."""
-    far_link, near = sys.argv[1], Near(sys.argv[2])
+    far_link, near, tap = sys.argv[1], Near(sys.argv[2]), open(sys.argv[3], "wb")
     near.plug()
     print("ready", flush=True)
     far = None
@@ -80,7 +86,7 @@ def main() -> None:
             far = None
             time.sleep(RETRY)
         if near.ends and near.ends[0] in ready:
-            copy(near.ends[0], far)
+            copy(near.ends[0], far, tap)
         if 0 in ready:
             said = os.read(0, 64)
             if not said:
@@ -90,6 +96,7 @@ def main() -> None:
             else:
                 near.plug()
             print("done", flush=True)
+    tap.close()
     if near.ends:
         near.unplug()
 
