@@ -9,6 +9,8 @@ mod gain;
 mod live;
 #[path = "support/programs.rs"]
 mod programs;
+#[path = "replay/secret.rs"]
+mod secret;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -10,6 +10,15 @@ pub trait Files {
     /// # Errors
     /// When it cannot be read; `key` (the parameter that names it) goes into the error.
     fn read(&self, key: &str, path: &str) -> Result<String, ConfigError>;
+
+    /// The text of `path`, a secret: where it lies on a disk, nobody but its owner may be able to read or write it, and no
+    /// journal keeps it.
+    ///
+    /// # Errors
+    /// As [`Files::read`], and when others have access to it.
+    fn read_secret(&self, key: &str, path: &str) -> Result<String, ConfigError> {
+        self.read(key, path)
+    }
 }
 
 /// Makes a core from its context, its parameters and the files they name.

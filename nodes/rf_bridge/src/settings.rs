@@ -45,8 +45,12 @@ pub(crate) fn descriptors() -> Vec<P> {
             .read_only(),
         P::string("serial.port", "", "device of the base station").read_only(),
         P::integer("serial.baud", 115_200, "bit/s of the serial line").range(1200.0, 4_000_000.0).read_only(),
-        P::string("key_file", "", "file with the robots' key, 32 hexadecimal digits; empty: packets carry no tag")
-            .read_only(),
+        P::string(
+            "key_file",
+            "",
+            "file with the robots' key, 32 hexadecimal digits, mode 0600; empty: packets carry no tag",
+        )
+        .read_only(),
         P::bool("stamped", true, "commands are geometry_msgs/TwistStamped; false: Twist").read_only(),
         P::integer("ranges", 4, "range sensors of a robot, counter-clockwise from the front")
             .range(0.0, MAX_RANGES as f64)
@@ -105,7 +109,7 @@ impl Settings {
         let key = match parameters.str("key_file")? {
             "" => None,
             path => {
-                let text = files.read("key_file", path)?;
+                let text = files.read_secret("key_file", path)?;
                 let key = Key::from_hex(&text);
                 Some(key.map_err(|error| parameters.error("key_file", error.to_string(), "write such a file"))?)
             }

@@ -45,7 +45,11 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::double("radio.bursts.every", 0.0, "s, mean time between bursts of interference; 0: none").range(0.0, 1e6),
         P::double("radio.bursts.length", 0.5, "s, mean length of a burst, in which nobody hears anybody")
             .range(0.0, 1e4),
-        P::string("key_file", "", "file with the robots' key, 32 hexadecimal digits; empty: robots obey anyone"),
+        P::string(
+            "key_file",
+            "",
+            "file with the robots' key, 32 hexadecimal digits, mode 0600; empty: robots obey anyone",
+        ),
         P::string("serial.link", "", "where the link to the base station's pseudo-terminal is made"),
         P::integer("serial.baud", 115_200, "bit/s at which the line is paced").range(1200.0, 4_000_000.0),
         P::double("camera.rate", 30.0, "frames a second").range(1.0, 100.0),
@@ -138,7 +142,7 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
     let key = match parameters.str("key_file")? {
         "" => None,
         path => {
-            let key = Key::from_hex(&files.read("key_file", path)?);
+            let key = Key::from_hex(&files.read_secret("key_file", path)?);
             Some(key.map_err(|error| parameters.error("key_file", error.to_string(), "write such a file"))?)
         }
     };
