@@ -73,7 +73,7 @@ def _now(ears: Ears):
 
 def _speak(ears: Ears, voices: list, seconds: float) -> float:
     """Publishes on several topics at once: kind, topic and what makes each message (or its bytes)."""
-    publishers = [(ears.node.create_publisher(kind, topic, 10), make) for kind, topic, make in voices]
+    publishers = [(ears.node.create_publisher(kind, topic, _quality(topic)), make) for kind, topic, make in voices]
     deadline = time.monotonic() + 1.0
     while any(publisher.get_subscription_count() < 1 for publisher, _ in publishers) and time.monotonic() < deadline:
         time.sleep(0.02)
@@ -87,6 +87,14 @@ def _speak(ears: Ears, voices: list, seconds: float) -> float:
     for publisher, _ in publishers:
         ears.node.destroy_publisher(publisher)
     return began
+
+
+def _quality(topic: str):
+    """As readers of the topic ask for it: of latched ones nobody hears a publisher who does not keep its word."""
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+
+    latched = topic in ("/run_state", "/assignment", "/formation")
+    return QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL) if latched else QoSProfile(depth=10)
 
 
 def _command(stamp, speed: float):
@@ -155,10 +163,72 @@ def _leader(stamp, place: float):
     return leader
 
 
+def _run(stamp, place: float):
+    from trench_msgs.msg import RunState
+
+    # Half of these say that nothing runs.
+    state = RunState.RUNNING if stamp.nanosec % 2 else RunState.STOPPED
+    return RunState(state=state, epoch=2**63)
+
+
+def _assignment(stamp, place: float):
+    from trench_msgs.msg import Assignment, Member
+
+    assignment = Assignment(epoch=2**63, formation_hash=2**63)
+    assignment.header.stamp = stamp
+    assignment.members = [Member(robot=f"robot{number}", rank=number) for number in range(1, 5)]
+    return assignment
+
+
+def _formation(stamp, place: float):
+    from trench_msgs.msg import Formation
+
+    formation = Formation(name="nonsense", hash=2**63)
+    formation.header.stamp = stamp
+    return formation
+
+
+def _target(stamp, place: float):
+    from nav_msgs.msg import Odometry
+
+    target = Odometry()
+    target.header.stamp, target.header.frame_id = stamp, "map"
+    target.pose.pose.position.x = target.twist.twist.linear.x = place
+    return target
+
+
+def _link(stamp, place: float):
+    from trench_msgs.msg import LinkStatus
+
+    link = LinkStatus(robot="robot2", up=False, loss=place)
+    link.header.stamp = stamp
+    return link
+
+
+def _identify(stamp, place: float):
+    from trench_msgs.msg import Identify
+
+    identify = Identify(robot="robot1")
+    identify.header.stamp = stamp
+    return identify
+
+
 def _voices() -> list:
-    """What makes robots move: kind, topic, message from a stamp and a number."""
+    """What robots are moved by: kind, topic, message from a stamp and a number."""
     from geometry_msgs.msg import TwistStamped
-    from trench_msgs.msg import ApparentObstacleArray, Goals, LeaderState, ObstacleArray, TeamState
+    from nav_msgs.msg import Odometry
+    from trench_msgs.msg import (
+        ApparentObstacleArray,
+        Assignment,
+        Formation,
+        Goals,
+        Identify,
+        LeaderState,
+        LinkStatus,
+        ObstacleArray,
+        RunState,
+        TeamState,
+    )
 
     return [
         (TeamState, "/team_state", _team),
@@ -167,6 +237,12 @@ def _voices() -> list:
         (ApparentObstacleArray, "/apparent_obstacles", _hulls),
         (ObstacleArray, "/obstacles", _obstacles),
         (LeaderState, "/robot2/leader_state", _leader),
+        (RunState, "/run_state", _run),
+        (Assignment, "/assignment", _assignment),
+        (Formation, "/formation", _formation),
+        (Odometry, "/target", _target),
+        (LinkStatus, "/robot2/link", _link),
+        (Identify, "/identify", _identify),
     ]
 
 

@@ -13,6 +13,7 @@ mod event;
 mod health;
 mod interface;
 mod jump;
+mod latched;
 mod marker;
 mod master;
 mod name;
@@ -29,6 +30,7 @@ pub use interface::{
     Advertise, ByteStream, Discovered, Durability, Interface, Local, Qos, Reliability, Serve, Subscribe,
 };
 pub use jump::{JumpWatch, jump_between};
+pub use latched::Latched;
 pub use marker::marker;
 pub use master::{Master, NotMaster};
 pub use name::resolve_name;

@@ -12,7 +12,6 @@ use crate::segments::Segments;
 use crate::settings::{Settings, check_gains, descriptors};
 use crate::tick::{Command, Tick};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Condition, Event, Files, Health, Interface, Level, Master, NodeContext, NodeCore, NodeDescription, NotMaster,
@@ -42,6 +41,8 @@ enum Dropped {
     Refused(#[from] Refusal),
     #[error(transparent)]
     NotMaster(#[from] NotMaster),
+    #[error("another publisher writes this topic, and its word is that of the goals")]
+    Other,
 }
 
 /// One robot's controller.
@@ -109,7 +110,7 @@ impl FormationController {
         if let Some(name) = port.checked_sub(OTHERS).and_then(|index| self.others.get(index)) {
             self.tick.inputs.voices.hear(name, source.gid, at.steady);
         }
-        if matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES) || port >= OTHERS {
+        if matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES | LINK) || port >= OTHERS {
             self.masters.entry(port).or_default().admit(source, at.steady)?;
         }
         let inputs = &mut self.tick.inputs;
@@ -119,16 +120,23 @@ impl FormationController {
             GOALS => inputs.take_goals(at, Goals::decode(cdr)?)?,
             ASSIGNMENT => {
                 let before = inputs.queue(&self.tick.settings.robot);
-                inputs.assignment = Some(Assignment::decode(cdr)?);
+                let counts = inputs.take_assignment(source.gid, Assignment::decode(cdr)?);
                 if inputs.queue(&self.tick.settings.robot) != before {
                     self.tick.renew();
                 }
+                return if counts { Ok(false) } else { Err(Dropped::Other) };
             }
             FORMATION => {
-                inputs.segments = Some(Arc::new(Segments::of(&Formation::decode(cdr)?)));
+                if !inputs.take_formation(source.gid, Segments::of(&Formation::decode(cdr)?)) {
+                    return Err(Dropped::Other);
+                }
                 self.tick.renew();
             }
-            RUN_STATE => inputs.run = Some(RunState::decode(cdr)?),
+            RUN_STATE => {
+                if !inputs.take_run(source.gid, RunState::decode(cdr)?) {
+                    return Err(Dropped::Other);
+                }
+            }
             APPARENT_OBSTACLES => {
                 inputs.take_hulls(at, Hulls::of(&ApparentObstacleArray::decode(cdr)?)?)?;
             }

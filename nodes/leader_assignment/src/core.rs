@@ -7,6 +7,7 @@ use crate::settings::{Settings, descriptors, seating, target_limits, team_limits
 use crate::team::Team;
 use crate::tick::longest_goals;
 use crate::{RunMachine, Target};
+use std::collections::BTreeMap;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Event, Files, Health, Interface, JumpWatch, Local, Master, NodeContext, NodeCore, NodeDescription,
@@ -57,8 +58,8 @@ pub struct LeaderAssignment {
     /// What an earlier life of the process left, until it is looked at.
     pub(crate) checkpoint: Option<Checkpoint>,
     pub(crate) team: Option<TeamState>,
-    /// Who writes /team_state.
-    localizer: Master,
+    /// Who writes each topic, by port.
+    masters: BTreeMap<usize, Master>,
     /// Who is gone, and who does not hear whom.
     pub(crate) members: Team,
     /// When the bridge told of a robot's radio last.
@@ -101,7 +102,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         seats: Vec::new(),
         checkpoint,
         team: None,
-        localizer: Master::default(),
+        masters: BTreeMap::new(),
         members: Team::default(),
         linked: None,
         radio_is_silent: false,
@@ -144,11 +145,12 @@ fn interface(robots: &[String]) -> Interface {
 
 impl LeaderAssignment {
     fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), Dropped> {
+        // Formations are asked for by whoever likes.
+        if port != SET_FORMATION {
+            self.masters.entry(port).or_default().admit(source, at.steady)?;
+        }
         match port {
-            TEAM_STATE => {
-                self.localizer.admit(source, at.steady)?;
-                self.tick(at, TeamState::decode(cdr)?, sink);
-            }
+            TEAM_STATE => self.tick(at, TeamState::decode(cdr)?, sink),
             TARGET => self.hear_target(at, &Odometry::decode(cdr)?, sink),
             SET_FORMATION => self.formation_asked(at, &Formation::decode(cdr)?, sink),
             _ => self.hear_of_robot(at, port - ROBOTS, cdr)?,

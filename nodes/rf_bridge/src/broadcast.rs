@@ -7,7 +7,7 @@ use trench_radio::{Commands, Payload, USUAL_AGE, Wheels};
 
 impl RfBridge {
     pub(crate) fn driving(&self, now: Steady) -> bool {
-        !self.stop.active() && !self.stop.reached_for(now) && (self.running || !self.tuning.needs_run_state)
+        !self.stop.active() && !self.stop.reached_for(now) && (self.run.is_running() || !self.tuning.needs_run_state)
     }
 
     /// A command came in: send at once if it was the last of its camera frame, else wait a moment for the others.

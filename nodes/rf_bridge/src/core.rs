@@ -4,10 +4,11 @@ use crate::channel::Channel;
 use crate::downlink::{Downlink, STREAM};
 use crate::interface::{COMMANDS, DIAGNOSTICS, EMERGENCY_STOP, RUN_STATE};
 use crate::robot::Robot;
+use crate::run::Run;
 use crate::settings::Tuning;
 use crate::stop::EmergencyStop;
 use trench_config::{ConfigError, Parameters};
-use trench_core::{Event, Health, Interface, Level, NodeCore, Refusals, Sink, Source, Steady, Times};
+use trench_core::{Event, Health, Interface, Level, Master, NodeCore, Refusals, Sink, Source, Steady, Times};
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -33,7 +34,9 @@ pub struct RfBridge {
     /// Who passed the last packet on.
     pub(crate) relays: RelayList,
     pub(crate) open: bool,
-    pub(crate) running: bool,
+    pub(crate) run: Run,
+    /// Who writes /identify.
+    pub(crate) localizer: Master,
     /// The robot that is being told apart, and when that was heard.
     pub(crate) turning: Option<(usize, Steady)>,
     pub(crate) stop: EmergencyStop,
@@ -58,18 +61,32 @@ impl RfBridge {
     ) -> Result<(), CdrError> {
         match port {
             RUN_STATE => {
-                let running = RunState::decode(cdr)?.state == RunState::RUNNING;
-                if self.running && !running {
+                let was_running = self.run.is_running();
+                self.run.hear(source.gid, &RunState::decode(cdr)?);
+                if was_running && !self.run.is_running() {
                     self.halt(at, sink);
                 }
-                self.running = running;
+                if self.run.is_disputed() {
+                    let text =
+                        "publishers of /run_state contradict each other: another publisher says that nothing runs";
+                    self.refusals.tell(at.steady, port, text.to_owned(), &mut self.health, sink);
+                }
             }
             EMERGENCY_STOP => {
                 if self.stop.hear(source.gid, Bool::decode(cdr)?.data) {
                     self.begin_stop(at, sink);
                 }
             }
-            _ if port == COMMANDS + self.robots.len() => self.hear_identify(at, &Identify::decode(cdr)?),
+            _ if port == COMMANDS + self.robots.len() => {
+                let message = Identify::decode(cdr)?;
+                match self.localizer.admit(source, at.steady) {
+                    Ok(()) => self.hear_identify(at, &message),
+                    Err(error) => {
+                        let text = format!("a message on /identify was dropped: {error}");
+                        self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                    }
+                }
+            }
             _ => {
                 let (twist, stamp) = if self.stamped {
                     let command = TwistStamped::decode(cdr)?;
@@ -161,7 +178,7 @@ impl NodeCore for RfBridge {
             }
             Event::Wakeup => self.wake(at, sink),
             Event::Shutdown => {
-                self.running = false;
+                self.run.forget();
                 self.halt(at, sink);
             }
             _ => {}

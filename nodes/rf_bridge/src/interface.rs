@@ -4,12 +4,13 @@ use crate::channel::Channel;
 use crate::core::RfBridge;
 use crate::downlink::Downlink;
 use crate::robot::Robot;
+use crate::run::Run;
 use crate::settings::{Settings, descriptors};
 use crate::stop::EmergencyStop;
 use trench_config::Parameters;
 use trench_core::{
-    Advertise, ByteStream, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos, Refusals,
-    Serve, StartError, Steady, Subscribe, resolve_name,
+    Advertise, ByteStream, Files, Health, Interface, Local, Master, NodeContext, NodeCore, NodeDescription, Qos,
+    Refusals, Serve, StartError, Steady, Subscribe, resolve_name,
 };
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -60,7 +61,8 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         channel: Channel::default(),
         relays: RelayList::default(),
         open: false,
-        running: false,
+        run: Run::default(),
+        localizer: Master::default(),
         turning: None,
         stop: EmergencyStop::restored(stopped),
         reset_until: None,

@@ -27,6 +27,7 @@ mod odometry;
 mod relays;
 mod report;
 mod robot;
+mod run;
 mod settings;
 mod stop;
 mod stopping;

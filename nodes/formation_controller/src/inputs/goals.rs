@@ -18,16 +18,25 @@ impl Inputs {
     /// Why they are refused.
     pub(crate) fn take_goals(&mut self, at: Times, message: Goals) -> Result<(), Refusal> {
         let ours = self.assignment.as_ref().map_or(0, |assignment| assignment.epoch);
-        if message.epoch < ours && message.epoch != 0 {
+        if message.epoch < ours && message.epoch != 0 && !self.orders.has(message.epoch) {
             return Err(Refusal::Epoch { theirs: message.epoch, ours });
         }
         timely(at, RosTime::from(&message.header.stamp), self.goals.stamp())?;
+        let is_new = message.epoch != self.goals.epoch();
         self.goals = Said(Some(Heard { at: at.steady, message }));
+        if is_new {
+            self.choose_again();
+        }
         Ok(())
     }
 }
 
 impl Said {
+    /// Of the assignment that they are of, 0 where none were heard.
+    pub(super) fn epoch(&self) -> u64 {
+        self.0.as_ref().map_or(0, |heard| heard.message.epoch)
+    }
+
     fn stamp(&self) -> Option<RosTime> {
         Some(RosTime::from(&self.0.as_ref()?.message.header.stamp))
     }

@@ -2,12 +2,14 @@
 
 mod goals;
 mod hulls;
+mod orders;
 mod stamps;
 mod teammates;
 mod voices;
 
 pub(crate) use goals::Said;
 pub(crate) use hulls::Hulls;
+pub(crate) use orders::Orders;
 pub(crate) use teammates::{Ahead, Others};
 pub(crate) use voices::Voices;
 
@@ -36,6 +38,8 @@ pub(crate) struct Inputs {
     /// Seconds between the exposures of the last two team states.
     interval: Option<f64>,
     pub(crate) goals: Said,
+    /// What everybody says on the latched topics, from which the next three are chosen.
+    pub(crate) orders: Orders,
     pub(crate) run: Option<RunState>,
     pub(crate) assignment: Option<Assignment>,
     pub(crate) segments: Option<Arc<Segments>>,
