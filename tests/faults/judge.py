@@ -90,7 +90,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     since = began + (0.2 if fault.get("touches") else 0.0)
     if fault.get("touches") and bag.nearest(fault["touches"], began, since) > TOUCH:
         verdict.problems.append(f"{fault['touches']} touched nobody")
-    contacts = [text for at, text in bag.contacts if since <= at <= min(ended + FORMATION, following)]
+    contacts = [text for at, text in bag.contacts if since <= at <= min(ended + FORMATION, following - LATE)]
     if contacts:
         verdict.problems.append(f"contact: {contacts[0]}")
     diagnose(bag, fault, began, evidence, verdict)

@@ -74,3 +74,60 @@ impl Relay {
         Relayed { after: place as u64 * RELAY_SLOT, for_base, packet: relayed_once_more(bytes) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trench_radio::{Commands, Telemetry, Wheels};
+
+    /// What a relay hears: `relayed` times on its way already, and to be relayed as `relaying` says.
+    fn heard(relayed: u8, relaying: Relaying, payload: Payload) -> (Packet, Vec<u8>) {
+        let packet = Packet { relayed, relaying, counter: 1, payload };
+        let mut bytes = Vec::new();
+        packet.encode(None, &mut bytes);
+        (Packet::decode(&bytes, None).unwrap(), bytes)
+    }
+
+    fn hops(relayed: &Relayed) -> u8 {
+        Packet::decode(&relayed.packet, None).unwrap().relayed
+    }
+
+    /// A list of n relays is a way of n hops at most, also for a copy that comes round in a circle.
+    #[test]
+    fn commands_go_as_many_hops_as_there_are_relays() {
+        let mut commands = Commands { validity_ms: 80, ..Commands::default() };
+        commands.wheels[4] = Some(Wheels::STOP);
+        for count in 1..=3_u8 {
+            let relaying = Relaying::by(RelayList::new(&[7, 8, 9][..usize::from(count)]));
+            for relayed in 0..=15 {
+                let (packet, bytes) = heard(relayed, relaying, Payload::Commands(commands));
+                let passed = Relay::new(7).pass_down(0, &packet, &bytes);
+                assert_eq!(
+                    passed.as_ref().map(hops),
+                    (relayed < count).then_some(relayed + 1),
+                    "{count} relays, {relayed} hops"
+                );
+                assert_eq!(Relay::new(3).pass_down(0, &packet, &bytes), None, "it is not named");
+            }
+        }
+    }
+
+    #[test]
+    fn reports_go_as_many_hops_as_they_may() {
+        let report = Telemetry { robot: 4, ..Telemetry::default() };
+        for limit in 1..=3_u8 {
+            for relayed in 0..=15 {
+                let (packet, bytes) = heard(relayed, Relaying::Anyone(limit), Payload::Telemetry(report));
+                let mut relay = Relay::new(7);
+                relay.named = Some((0, 0));
+                let passed = relay.pass_up(1, &packet, &bytes, true);
+                assert_eq!(
+                    passed.as_ref().map(hops),
+                    (relayed < limit).then_some(relayed + 1),
+                    "limit {limit}, {relayed} hops"
+                );
+                assert_eq!(relay.pass_up(1, &packet, &bytes, true), None, "each report once");
+            }
+        }
+    }
+}
