@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, VecDeque};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Condition, Event, Files, Health, Interface, Local, Master, NodeContext, NodeCore, NodeDescription, Qos,
-    RosTime, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
+    Refusals, RosTime, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_formation::Vector2;
 use trench_formation::hull::{ApparentObstacle, Obstacle, combine_unless};
@@ -55,6 +55,8 @@ pub struct ObstacleMapper {
     health: Health,
     of_obstacles: Report,
     of_scans: Report,
+    /// Messages on /team_state that are none, or not the localizer's.
+    refusals: Refusals,
     scans_taken: u64,
     wakeup: Option<Steady>,
     last_picture: Option<Steady>,
@@ -107,6 +109,7 @@ impl ObstacleMapper {
             health: Health::new(resolve_name("~", &context.namespace, &context.name)),
             of_obstacles: Report::new("obstacles"),
             of_scans: Report::new("scans"),
+            refusals: Refusals::default(),
             scans_taken: 0,
             wakeup: None,
             last_picture: None,
@@ -197,7 +200,7 @@ impl ObstacleMapper {
             }
             Err(error) => {
                 let what = format!("a message on /team_state was dropped: {error}");
-                self.of_scans.refuse(&what, &mut self.health, sink);
+                self.refusals.tell(at.steady, TEAM, what, &mut self.health, sink);
             }
         }
     }
@@ -286,6 +289,7 @@ impl NodeCore for ObstacleMapper {
             Event::Message { port, cdr, .. } => self.scan(at, port.saturating_sub(SCANS), cdr, sink),
             _ => {}
         }
+        self.refusals.settle(at.steady, &mut self.health);
         self.health.publish(at, DIAGNOSTICS, sink);
     }
 

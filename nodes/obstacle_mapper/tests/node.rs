@@ -225,10 +225,6 @@ fn bad_messages_are_told_of_and_good_ones_end_it() {
     assert_eq!(bench.condition("obstacles").0, 2);
 
     bench.team(&[[0.5, 0.0], [0.5, 1.0]]);
-    bench.send("/team_state", 99, &TeamState::default().to_cdr());
-    assert!(bench.condition("scans").1.contains("another publisher writes this topic"));
-    // Another reason of the same condition waits a little.
-    bench.seconds += 0.3;
     let mut bad = scan(bench.header(), [0.5, 0.0], None);
     bad.range_max = f32::NAN;
     bench.send("/robot1/scan", 10, &bad.to_cdr());
@@ -243,6 +239,86 @@ fn bad_messages_are_told_of_and_good_ones_end_it() {
     bench.wake();
     assert!(bench.condition("scans").1.contains("robot2"), "{:?}", bench.condition("scans"));
     assert_eq!(bench.wake().obstacles.len(), 1, "nothing of them is taken");
+}
+
+/// A second publisher of /team_state, as often as the first: the warning stays while it writes, ends after it, and says nothing of scans.
+#[test]
+fn a_stranger_on_team_state_is_told_of_steadily() {
+    let mut bench = Bench::new(&[TWO]);
+    let mut heard = |stranger: bool| {
+        let mut levels = std::collections::BTreeSet::new();
+        for tick in 0..60 {
+            bench.seconds += 0.1;
+            bench.team(&[[0.5, 0.0], [0.5, 1.0]]);
+            let seen = scan(bench.header(), [0.5, 0.0], None);
+            bench.send("/robot1/scan", 10, &seen.to_cdr());
+            if stranger {
+                bench.send("/team_state", 99, &TeamState::default().to_cdr());
+            }
+            bench.wake();
+            // All parts are told once a second.
+            if tick > 10 {
+                assert_eq!(bench.condition("scans").0, 0, "{:?}", bench.condition("scans"));
+                levels.insert(bench.condition("messages").0);
+            }
+        }
+        (levels, bench.condition("messages").1)
+    };
+    assert_eq!(heard(false).0, [0].into());
+    let (levels, text) = heard(true);
+    assert_eq!(levels, [1].into(), "it does not flip");
+    assert!(text.starts_with("a message on /team_state was dropped: another publisher writes this topic"), "{text}");
+    assert_eq!(heard(false).1, "none was dropped lately");
+}
+
+/// A hull is called like the least of its members (ApparentObstacle.msg): it keeps its name whoever else comes and leaves, and so do
+/// those beside it.
+#[test]
+fn hulls_keep_their_identities_while_members_come_and_leave() {
+    let mut bench = Bench::new(&[]);
+    let mut named = |obstacles: &[(u32, f64)]| {
+        bench.seconds += 0.1;
+        bench.obstacles(obstacles.iter().map(|(id, x)| disc(*id, *x, 0.0)).collect());
+        let known: ApparentObstacleArray = bench.out.last(0).unwrap();
+        known.obstacles.into_iter().map(|one| (one.id, one.members)).collect::<Vec<_>>()
+    };
+    let far = (9, 5.0);
+    let alone = |members: &[u32]| vec![(4, members.to_vec()), (9, vec![9])];
+    assert_eq!(named(&[(4, 0.0), (6, 0.3), far]), alone(&[4, 6]));
+    assert_eq!(named(&[(7, 0.6), (4, 0.0), far, (6, 0.3)]), alone(&[4, 6, 7]), "another comes, in any order");
+    // The one in the middle leaves: what is left of the hull keeps the name, the other part is called like itself.
+    assert_eq!(named(&[(4, 0.0), (7, 0.6), far]), [(4, vec![4]), (7, vec![7]), (9, vec![9])]);
+    assert_eq!(named(&[(4, 0.0), (6, 0.3), (7, 0.6), far]), alone(&[4, 6, 7]), "it comes back");
+    assert_eq!(named(&[(4, 1.5), (6, 0.3), (7, 0.6), far]), [(4, vec![4]), (6, vec![6, 7]), (9, vec![9])]);
+}
+
+/// A crescent: its hull closes its mouth, and what lies in the mouth belongs to it.
+#[test]
+fn a_crescent_is_as_large_as_its_hull() {
+    let arc = |radius: f64, index: u32| {
+        let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(index) / 12.0);
+        Point2 { x: radius * cos, y: radius * sin }
+    };
+    let polygon: Vec<Point2> =
+        (0..=12).map(|index| arc(0.5, index)).chain((0..=12).rev().map(|index| arc(0.4, index))).collect();
+    let crescent = Obstacle { id: 2, polygon, ..Obstacle::default() };
+    let mut bench = Bench::new(&[]);
+    let within = Obstacle { id: 3, polygon: vec![Point2 { x: 0.0, y: 0.15 }], radius: 0.05, ..Obstacle::default() };
+    bench.obstacles(vec![crescent, within]);
+    let known: ApparentObstacleArray = bench.out.last(0).unwrap();
+    bench.seconds += 1.1;
+    bench.wake();
+    assert_eq!(bench.condition("obstacles").0, 0, "it is taken as it is");
+    assert_eq!(known.obstacles.len(), 1, "{known:?}");
+    let hull = &known.obstacles[0];
+    assert_eq!((hull.id, &hull.members[..]), (2, &[2, 3][..]));
+    let next = |index: usize| &hull.hull[(index + 1) % hull.hull.len()];
+    let area: f64 = (0..hull.hull.len())
+        .map(|index| 0.5 * (hull.hull[index].x * next(index).y - hull.hull[index].y * next(index).x))
+        .sum();
+    // The half of a polygon of 24 corners on a circle of 0.5 m: the mouth is closed from tip to tip.
+    let half = 12.0 * 0.5 * 0.25 * libm::sin(std::f64::consts::PI / 12.0);
+    assert!((area - half).abs() < 1e-9, "{area} {half}");
 }
 
 #[test]
