@@ -88,17 +88,21 @@ pub(crate) fn drive(file: &str, arguments: &[(&str, &str)]) -> Finished {
 
 /// Drives a launch file in lock-step to its end.
 pub(crate) fn drive_file(path: &Path, arguments: &[(&str, &str)]) -> Finished {
-    let arguments: BTreeMap<String, String> =
-        arguments.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
-    let loaded = load(&plan(path, &arguments).unwrap(), &Disk, 1).unwrap();
-    let mut lockstep = Lockstep::new(loaded.instances).unwrap();
     let mut watch = Watch {
         builder: RunBuilder::default(),
         conformity: Conformity::default(),
         complaints: Vec::new(),
         digest: 0xcbf2_9ce4_8422_2325,
     };
-    let ending = lockstep.run(600.0, &mut watch);
+    let ending = watched(path, arguments, &mut watch);
     let Watch { builder, conformity, complaints, digest } = watch;
     Finished { run: builder.finish(), conformity, ending, complaints, digest }
+}
+
+/// Drives a launch file in lock-step to its end, for someone who looks at all that is published.
+pub(crate) fn watched(path: &Path, arguments: &[(&str, &str)], observer: &mut dyn Observer) -> Ending {
+    let arguments: BTreeMap<String, String> =
+        arguments.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let loaded = load(&plan(path, &arguments).unwrap(), &Disk, 1).unwrap();
+    Lockstep::new(loaded.instances).unwrap().run(600.0, observer)
 }

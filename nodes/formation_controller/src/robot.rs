@@ -66,11 +66,22 @@ impl Tick {
         self.settings.ramp.limit(current, wanted, interval)
     }
 
-    /// What the wheels make of a command: the safety filter may ask for more than they can follow, to brake or turn away as
-    /// hard as they can.
-    pub(crate) fn reached(&self, told: Twist, acts: RosTime) -> Wheels {
+    /// What the safety filter asks for, as far as each wheel can follow from what it was told last, braking or turning away as hard as it
+    /// can: steps told beyond that are missed, and bring nothing.
+    pub(crate) fn within_reach(&self, twist: Twist, acts: RosTime, command: &mut Command) -> Twist {
+        let asked = self.settings.axle.wheels(twist);
+        let reached = self.reached(saturate(asked, self.settings.max_wheel_speed).value, acts);
+        if reached == asked {
+            return twist;
+        }
+        command.limits |= LeaderState::LIMIT_RAMP;
+        self.settings.axle.twist(reached)
+    }
+
+    /// What the wheels make of `told`. Who is told to rest at once is told more than they can follow: that is meant for the worst.
+    pub(crate) fn reached(&self, told: Wheels, acts: RosTime) -> Wheels {
         let (current, interval) = self.since_last(acts);
-        self.settings.ramp.reached(current, self.settings.axle.wheels(told), interval)
+        self.settings.ramp.reached(current, told, interval)
     }
 
     /// The wheels as they are when the next command acts, and how long they will have obeyed the last one, s.

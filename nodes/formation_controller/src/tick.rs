@@ -170,7 +170,7 @@ impl Tick {
                 }
             }
         }
-        let wheels = self.reached(command.twist, acts);
+        let wheels = self.reached(self.settings.axle.wheels(command.twist), acts);
         self.last = Some((acts, wheels));
         self.predictor.sent(acts, self.settings.axle.twist(wheels));
         command
@@ -230,10 +230,11 @@ impl Tick {
             return Err(Hold::NotFinite);
         }
         let followable = self.followable(wanted.twist, acts, command);
-        command.twist = self.safe((at, acts), &state, followable, (wanted.detour, wanted.pace), command)?;
-        if !command.twist.is_finite() {
+        let filtered = self.safe((at, acts), &state, followable, (wanted.detour, wanted.pace), command)?;
+        if !filtered.is_finite() {
             return Err(Hold::NotFinite);
         }
+        command.twist = if filtered == followable { filtered } else { self.within_reach(filtered, acts, command) };
         self.follow_limits(ahead, wanted.twist, command.twist);
         if command.limits != 0 {
             self.recursion.restart();
