@@ -28,7 +28,8 @@ export function drawCards() {
   card.attr("data-robot", (robot) => robot.name);
   card.select(".dot").style("background", (robot) => colour(robot.name));
   card.select(".who").text((robot) => robot.name);
-  card.select(".tags").selectAll("span").data(tags, (tag) => tag.text).join("span").attr("class", (tag) => `tag ${tag.kind}`).text((tag) => tag.text);
+  card.select(".tags").selectAll("span").data(tags, (tag) => tag.text).join("span").attr("class", (tag) => `tag ${tag.kind}`)
+    .attr("title", (tag) => tag.title ?? null).text((tag) => tag.text);
   card.each(function (robot) {
     const law = picture.control[robot.name];
     const monitor = picture.stability[robot.name];
@@ -39,12 +40,16 @@ export function drawCards() {
   });
 }
 
+// The number of the condition that does not hold: the monitor says robot, equation and what is wrong, with colons between.
+const violated = (monitor) => monitor.violation.split(": ")[1] || monitor.equation;
+
 function tags(robot) {
   const place = picture.places[robot.name];
   const law = picture.control[robot.name];
   const list = [];
   if (STATUS[robot.status]) list.push({ text: STATUS[robot.status], kind: "bad" });
-  if (picture.stability[robot.name]?.holds === false) list.push({ text: "V above bound", kind: "bad" });
+  const monitor = picture.stability[robot.name];
+  if (monitor?.holds === false) list.push({ text: `violates ${violated(monitor)}`, title: monitor.violation, kind: "bad" });
   const link = LINK[linkState(robot.name)];
   if (link) list.push({ text: link, kind: "bad" });
   for (const limit of law?.limits ?? []) list.push({ text: limit, kind: ["stale", "deviates"].includes(limit) ? "bad" : "" });

@@ -21,8 +21,15 @@ const SAMPLES = {
 };
 
 const panel = d3.select("#layers");
-// Of what controllers draw, the picture has zones of its own; forces and fragments are for those who look closely.
-const QUIET = ["velocities", ...["zones", "forces", "fragments"].map((part) => `marker:controller/${part}`)];
+// Of what controllers draw, the picture has zones of its own; forces by their terms, sectors and fragments are for those who look closely.
+const QUIET = ["velocities", ...["zones", "forces", "fragments", "sectors"].map((part) => `marker:controller/${part}`)];
+// What other namespaces are called here, and their samples: the terms of a law in the colours of their arrows.
+const arrow = (y, colour) => `<path d="M1 ${y}h${20 - y}" stroke="${colour}" stroke-width="1.6"/>`;
+const TERMS = arrow(1, "#1a73cc") + arrow(4, "#1a994d") + arrow(7, "#d9801a") + arrow(10, "#cc3326") + arrow(13, "#666");
+const FOREIGN = {
+  "controller/forces": ["Forces by term: segment, leader, robots, obstacles, damping", TERMS],
+  "controller/sectors": ["Repulsive areas (Fig. 7.9)"],
+};
 const stored = localStorage.getItem("trench.hidden");
 const hidden = new Set(stored ? JSON.parse(stored) : QUIET);
 
@@ -35,7 +42,11 @@ function offered() {
     obstacles: !picture.obstacles.length, hulls: !picture.hulls.length, leaders: !Object.keys(picture.places).length,
   };
   const known = Object.entries(SAMPLES).filter(([name]) => !absent[name]).map(([name, [title, sample]]) => ({ name, title, sample }));
-  const foreign = foreignLayers().map((name) => ({ name: `marker:${name}`, title: name, sample: '<path d="M2 12L8 3l6 7 6-8" stroke-width="1.5"/>' }));
+  const zigzag = '<path d="M2 12L8 3l6 7 6-8" stroke-width="1.5"/>';
+  const foreign = foreignLayers().map((name) => {
+    const [title, sample] = FOREIGN[name] ?? [name];
+    return { name: `marker:${name}`, title, sample: sample ?? zigzag };
+  });
   return [...known, ...foreign];
 }
 

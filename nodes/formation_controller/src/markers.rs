@@ -1,5 +1,5 @@
 //! What a controller goes by, as RViz2 and Foxglove draw it: zones, hulls merged with the robots ahead, what is left of the segment,
-//! the point that draws the robot, forces, the way out of a minimum (Figures 7.4 to 7.14).
+//! the repulsive areas that it is in, the point that draws the robot, forces, the way out of a minimum (Figures 7.4 to 7.14).
 
 use trench_core::RosTime;
 use trench_formation::Vector2;
@@ -21,6 +21,8 @@ const FORCE: f64 = 0.4;
 const LEAST: f64 = 0.004;
 /// Directions in which a merged hull is looked at.
 const DIRECTIONS: usize = 24;
+/// Pieces of the arcs of a repulsive sector.
+const ARC: usize = 6;
 /// Length of the straight pieces that fragments are drawn in, m.
 const PIECE: f64 = 0.1;
 /// Pieces of one fragment at most.
@@ -54,6 +56,7 @@ impl Picture<'_> {
         self.zones(&mut drawn);
         self.segment(&mut drawn);
         self.hulls(&mut drawn);
+        self.sectors(&mut drawn);
         if let Some(attraction) = self.action.attraction {
             drawn.line("nearest", BLUE, &[self.point, attraction]);
         }
@@ -103,6 +106,21 @@ impl Picture<'_> {
         let is_new = |id: &u32| !self.around.real.iter().any(|real| real.id == *id);
         for hull in merged.iter().filter(|hull| hull.members.iter().any(is_new)) {
             drawn.line("hulls", PURPLE, &hull.shape.outline().boundary(DIRECTIONS));
+        }
+    }
+
+    /// Fig. 7.9: the areas before faces and at corners of what repels the robot now.
+    fn sectors(&self, drawn: &mut Drawn) {
+        let reach = self.agent.settings().potential.cut();
+        for obstacle in self.around.apparent {
+            let outline = obstacle.shape.outline();
+            if outline.approach(self.point).gap >= reach {
+                continue;
+            }
+            let marker = drawn.add("sectors", Marker::LINE_LIST, ColorRGBA { a: 0.5, ..ORANGE });
+            marker.scale.x = 0.5 * LINE;
+            let areas = outline.repulsive_areas(reach, ARC);
+            marker.points = areas.iter().flat_map(|area| area.windows(2)).flatten().copied().map(level).collect();
         }
     }
 

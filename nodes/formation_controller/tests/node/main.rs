@@ -4,6 +4,7 @@
 mod bench;
 mod chain;
 mod laws;
+mod markers;
 mod remedies;
 mod stability;
 mod ticks;

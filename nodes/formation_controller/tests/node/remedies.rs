@@ -22,7 +22,7 @@ fn bench(overrides: &[(&str, &str)], pose: Pose, obstacles: ApparentObstacleArra
 }
 
 /// A wall between the robot and its segment y = 0.9, parallel to it: the nearest point moves along with the robot.
-fn wall() -> ApparentObstacleArray {
+pub(crate) fn wall() -> ApparentObstacleArray {
     let hull = [[0.7, 1.2], [1.3, 1.2], [1.3, 1.3], [0.7, 1.3]];
     ApparentObstacleArray {
         obstacles: vec![ApparentObstacle { id: 3, hull: corners(&hull), members: vec![3], ..Default::default() }],
