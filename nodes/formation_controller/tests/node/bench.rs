@@ -63,6 +63,10 @@ pub(crate) struct Bench {
     pub(crate) twist: Twist,
     /// What the mapper tells of.
     pub(crate) obstacles: ApparentObstacleArray,
+    /// The goal point, m.
+    pub(crate) goal: Point2,
+    /// Whom else the localizer sees.
+    pub(crate) others: Vec<RobotState>,
 }
 
 /// Between two frames, s.
@@ -83,6 +87,8 @@ impl Bench {
             pose: Pose::new(1.0, 0.9, 0.0),
             twist: Twist::ZERO,
             obstacles: ApparentObstacleArray::default(),
+            goal: Point2 { x: 1.5, y: 0.9 },
+            others: Vec::new(),
         }
     }
 
@@ -115,12 +121,8 @@ impl Bench {
         self.obstacles.header.stamp = self.times().ros.into();
         let obstacles = self.obstacles.to_cdr();
         self.send_bytes("/apparent_obstacles", &obstacles);
-        let goal = Goal {
-            robot: "robot1".to_owned(),
-            position: Point2 { x: 1.5, y: 0.9 },
-            remaining: 1e9,
-            ..Default::default()
-        };
+        let position = self.goal.clone();
+        let goal = Goal { robot: "robot1".to_owned(), position, remaining: 1e9, ..Default::default() };
         let ahead = Goal { robot: "robot2".to_owned(), position: Point2 { x: 1.9, y: 0.9 }, ..goal.clone() };
         let mut goals = Goals { goals: vec![goal, ahead], ..Default::default() };
         goals.header.stamp = self.times().ros.into();
@@ -129,7 +131,8 @@ impl Bench {
 
     pub(crate) fn team(&self, status: u8, age: f64) -> TeamState {
         let robot = RobotState { name: "robot1".to_owned(), status, x: 1.0, y: 0.9, ..Default::default() };
-        let mut team = TeamState { robots: vec![robot], ..Default::default() };
+        let robots = std::iter::once(robot).chain(self.others.iter().cloned()).collect();
+        let mut team = TeamState { robots, ..Default::default() };
         team.header.stamp = self.times().ros.plus_seconds(-age).into();
         team
     }

@@ -22,14 +22,30 @@ fn leader_at(bench: &Bench, x: f64, epoch: u64) -> LeaderState {
     state
 }
 
+/// The leader is believed to go on for 0.4 s; then the follower slows down by its acceleration of 0.35 m/s^2, and rests.
 #[test]
-fn a_follower_goes_after_its_leader_and_rests_when_that_is_silent() {
+fn a_follower_goes_after_its_leader_and_slows_and_rests_when_that_is_silent() {
     let mut bench = follower();
     let fastest = follow(&mut bench, 30, Some(1.9));
     assert!(fastest > 0.05, "{fastest}");
-    follow(&mut bench, 30, None);
-    assert_eq!(bench.last_command().twist.linear.x, 0.0);
-    assert!(bench.says().contains("robot2, ahead in the chain, is silent"), "{}", bench.says());
+    let silent = "robot2, ahead in the chain, is silent";
+    let (before, mut speeds) = (bench.seconds - PERIOD, Vec::new());
+    while bench.seconds < before + 1.25 {
+        let v = follow(&mut bench, 1, None);
+        let elapsed = bench.seconds - PERIOD - before;
+        assert_eq!(bench.says().contains(silent), elapsed > 0.4 - 0.035, "{elapsed} s: {}", bench.says());
+        if elapsed > 0.4 - 0.035 {
+            speeds.push(v);
+        }
+    }
+    // The mean over a tick is sent.
+    let step = 0.35 * PERIOD + 1e-6;
+    assert!(speeds[0] >= fastest - step, "not at once: {fastest}, then {speeds:?}");
+    let ramp = |pair: &[f64]| pair[1] == 0.0 && pair[0] <= 1.5 * step || (pair[0] - pair[1] - step).abs() < 1e-3 * step;
+    assert!(speeds.windows(2).all(ramp), "{fastest}, then {speeds:?}");
+    let moving = speeds.iter().take_while(|v| **v > 0.0).count();
+    assert!(moving as f64 >= fastest / step - 1.5, "{moving} ticks: {fastest}, then {speeds:?}");
+    assert!(speeds[moving..].iter().all(|v| *v == 0.0) && moving < speeds.len(), "{speeds:?}");
 }
 
 /// So many ticks of a follower, with its leader at `leader` (m along the segment) if it speaks; gives the highest speed.
@@ -159,6 +175,26 @@ fn leader_states_of_another_epoch_or_time_do_not_count() {
     refused(&|state| state.formation_hash = 8, "of another formation");
     refused(&|state| state.header.stamp = RosTime(0).plus_seconds(105.0).into(), "from the future");
     refused(&|state| state.point.x = f64::NAN, "not finite");
+}
+
+/// Each tick one, of the exposure that it rests on; a follower hears them and so is never late by more than one.
+#[test]
+fn every_tick_has_one_leader_state() {
+    let mut bench = follower();
+    let port = bench.port("/robot1/leader_state");
+    let mut exposures = Vec::new();
+    for tick in 0..60 {
+        exposures.push(bench.times().ros);
+        // Whatever else comes in between makes no further one.
+        let heard = 1 + tick % 3;
+        (0..heard).for_each(|_| bench.send("/robot2/leader_state", &leader_at(&bench, 1.9, 4)));
+        bench.running();
+        bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+        bench.seconds += PERIOD;
+    }
+    let said = bench.out.published::<LeaderState>(port);
+    let stamps: Vec<RosTime> = said.iter().map(|state| RosTime::from(&state.header.stamp)).collect();
+    assert_eq!(stamps, exposures);
 }
 
 /// Both hear it, and the robot rests until one of them ends; whoever hears two for another robot says so.

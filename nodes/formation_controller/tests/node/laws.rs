@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, LAWS, formation, leader, make, parameters};
 use trench_formation::kinematics::Pose;
-use trench_msgs::msg::{LeaderState, RobotState, Stability};
+use trench_msgs::msg::{LeaderState, Stability};
 
 #[test]
 fn gains_outside_the_stable_zone_are_refused_with_the_equation() {
@@ -14,13 +14,25 @@ fn gains_outside_the_stable_zone_are_refused_with_the_equation() {
     assert!(make(&[("gains.k3", "50.0"), ("refuse_unstable_gains", "false")]).is_ok());
 }
 
+/// The robot looks a quarter turn away from its goal: under K2 = -3 it would turn away from it.
 #[test]
 fn a_refused_change_leaves_the_old_gains_in_force() {
-    let mut bench = Bench::new();
-    let change = parameters(&[("gains.k2", "-3.0")]).unwrap();
-    assert!(bench.core.set_parameters(&change).is_err());
-    bench.running();
-    assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
+    let turns_by = |change: Option<(&str, bool)>| {
+        let mut bench = Bench::new();
+        bench.pose = Pose::new(1.0, 0.9, 1.5);
+        if let Some((k2, refuse)) = change {
+            let refuse = if refuse { "true" } else { "false" };
+            let change = parameters(&[("gains.k2", k2), ("refuse_unstable_gains", refuse)]).unwrap();
+            assert_eq!(bench.core.set_parameters(&change).is_err(), refuse == "true" && k2 == "-3.0");
+        }
+        bench.drive(1);
+        bench.last_command().twist.angular.z
+    };
+    let before = turns_by(None);
+    assert!(before < -0.5, "towards its goal: {before}");
+    assert_eq!(turns_by(Some(("-3.0", true))), before, "what is refused");
+    assert!(turns_by(Some(("-3.0", false))) > 0.5, "what is allowed would turn it away");
+    assert!(turns_by(Some(("0.5", true))) > before, "what is admissible is in force at once");
 }
 
 #[test]

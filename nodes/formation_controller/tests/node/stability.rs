@@ -3,7 +3,7 @@
 use crate::bench::{Bench, LAWS, PERIOD, formation, leader, make};
 use trench_formation::kinematics::Pose;
 use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
-use trench_msgs::msg::{LeaderState, RobotState, Stability};
+use trench_msgs::msg::{ApparentObstacle, ApparentObstacleArray, LeaderState, Obstacle, Point2, RobotState, Stability};
 
 /// robot1 under `law`, a quarter turn away from its goal and off its segment.
 fn under(law: &str) -> Bench {
@@ -123,6 +123,90 @@ fn gains_that_the_operator_allowed_against_the_theory_stay_reported() {
     let (level, text) = diagnosed(&bench);
     assert_eq!(level, 1);
     assert!(text.starts_with("robot1: (3.13): ") && text.contains("4.3.1"), "{text}");
+}
+
+/// A leader backs towards its follower, and faster than that may, until the follower is within zone 1, 0.2 m.
+#[test]
+fn a_robot_in_zone_1_is_reported_within_a_second() {
+    let mut bench = under("chain");
+    bench.pose = Pose::new(1.0, 0.9, 0.0);
+    let (mut entered, mut told, mut gap) = (None, None, 0.4_f64);
+    for _ in 0..90 {
+        gap = (gap - 0.3 * PERIOD).max(0.13);
+        let mut state = LeaderState { epoch: 4, formation_hash: 7, rank: 1, ..Default::default() };
+        state.header.stamp = bench.times().ros.into();
+        let steered = bench.pose.position() + 0.05 * bench.pose.heading();
+        state.point = Point2 { x: steered.x + gap, y: steered.y };
+        bench.send("/robot2/leader_state", &state);
+        let now = bench.seconds;
+        bench.drive(1);
+        if gap < 0.2 {
+            entered.get_or_insert(now);
+        }
+        let (level, text) = diagnosed(&bench);
+        if level != 0 {
+            told.get_or_insert(now);
+            assert!(level == 1 && gap < 0.205, "{gap} m: {text}");
+            let last = said(&bench).pop().unwrap();
+            assert!(!last.holds && last.violation.starts_with("robot1: A.12 (i): 0.1"), "{last:?}");
+            assert!(text.starts_with("robot1: A.12 (i): 0.1"), "{text}");
+            assert!(text.ends_with(" m from robot2, within zone 1 of 0.2 m"), "{text}");
+        }
+    }
+    let delay = told.unwrap() - entered.unwrap();
+    assert!(delay <= 1.0, "{delay} s");
+}
+
+/// The input that the monitor names as the greatest of the last ticks.
+fn term(bench: &Bench) -> String {
+    said(bench).pop().unwrap().term
+}
+
+/// What brings energy in is named, each time another input.
+#[test]
+fn the_responsible_term_is_named() {
+    // Off its way, the robot is asked for more than its motors can do; once it is there nothing but the law acts.
+    let mut driven = under("goal");
+    let terms = |bench: &mut Bench, ticks: u32| -> std::collections::BTreeSet<String> {
+        (0..ticks).map(|_| (bench.drive(1), term(bench)).1).collect()
+    };
+    let seen = terms(&mut driven, 60);
+    assert!(seen.contains("limits") && seen.contains("law") && seen.len() == 2, "{seen:?}");
+    driven.drive(300);
+    assert_eq!(terms(&mut driven, 60), ["law".to_owned()].into());
+
+    // The goal point jumps: what the frame does otherwise than was expected.
+    let mut jumping = under("goal");
+    jumping.drive(45);
+    jumping.goal = Point2 { x: 1.5, y: 1.3 };
+    jumping.drive(6);
+    assert_eq!(term(&jumping), "frame");
+    assert!(said(&jumping).iter().all(|one| one.holds), "an input is no violation");
+
+    // The leader goes away with more energy of its own than all else brings in.
+    let mut led = under("chain");
+    led.pose = Pose::new(0.6, 0.9, 0.0);
+    for tick in 0..20 {
+        let mut state = LeaderState { epoch: 4, formation_hash: 7, rank: 1, lyapunov: 0.5, ..Default::default() };
+        state.header.stamp = led.times().ros.into();
+        state.point = Point2 { x: 1.3 + 0.15 * PERIOD * f64::from(tick), y: 0.9 };
+        state.point_velocity = Point2 { x: 0.15, y: 0.0 };
+        led.send("/robot2/leader_state", &state);
+        led.drive(1);
+    }
+    assert_eq!(term(&led), "leader");
+
+    // A wall across the way: the filter brakes.
+    let mut stopped = under("goal");
+    stopped.pose = Pose::new(1.0, 0.9, 0.0);
+    let hull = [[1.25, 0.6], [1.35, 0.6], [1.35, 1.2], [1.25, 1.2]].map(|[x, y]| Point2 { x, y }).to_vec();
+    stopped.obstacles = ApparentObstacleArray {
+        obstacles: vec![ApparentObstacle { id: 3, hull: hull.clone(), members: vec![3], ..Default::default() }],
+        members: vec![Obstacle { id: 3, polygon: hull, ..Default::default() }],
+        ..Default::default()
+    };
+    let seen = terms(&mut stopped, 60);
+    assert!(seen.contains("safety"), "{seen:?}");
 }
 
 #[test]
