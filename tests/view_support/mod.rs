@@ -3,6 +3,7 @@
 mod browser;
 
 pub(crate) use browser::Browser;
+use rustix::process::{Pid, getpriority_process};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
@@ -40,6 +41,11 @@ impl Viewer {
     /// The address of its page.
     pub(crate) fn page(&self) -> String {
         format!("http://{}/", self.host)
+    }
+
+    /// How far it lets others go first: those who watch 4, the control loop 0 and 1.
+    pub(crate) fn niceness(&self) -> i32 {
+        getpriority_process(Some(Pid::from_child(&self.process))).unwrap()
     }
 
     /// Sends these bytes as a request and gives the answer's first line and all of it.

@@ -42,6 +42,8 @@ pub(super) fn keep(table: Table, ears: Ears) -> Arc<Table> {
 
 /// Runs the node until a signal ends it; gives the exit code.
 pub(super) fn run(further: &[String]) -> u8 {
+    // A person looks at it: whoever drives robots goes first.
+    trench_runtime::wait_turn(trench_runtime::Turn::Watcher);
     trench_runtime::run_with_arguments(description(), further.iter().cloned())
 }
 
