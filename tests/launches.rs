@@ -4,7 +4,7 @@
 #[expect(dead_code, reason = "the experiments use the rest")]
 mod support;
 
-use support::{Finished, drive};
+use support::{Finished, drive, root};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
 
@@ -70,4 +70,16 @@ fn controllers_in_one_process_drive_as_separate_ones() {
         let run = |together| drive(file, &[("together", together), ("duration", "10.0")]).digest;
         assert_eq!(run("true"), run("false"), "{file}");
     }
+}
+
+/// Its mouth is towards the robots that come; its hull closes it.
+#[test]
+fn a_column_goes_round_a_crescent() {
+    let crescent = root().join("config/obstacles/crescent.yaml").display().to_string();
+    let finished = stands("column.launch.yaml", &[("obstacles", &crescent)]);
+    let poses = finished.run.robots.values().flat_map(|track| &track.poses);
+    let nearest = poses.map(|pose| libm::hypot(pose.x - 1.5, pose.y - 0.9)).fold(f64::INFINITY, f64::min);
+    println!("{nearest:.3} m from its middle at the nearest");
+    assert!(nearest < 0.2 + 0.08 + 0.3, "it is not in the way of anybody: {nearest} m from its middle at the nearest");
+    assert!(finished.conformity.finish().at_the_end() <= 0.05);
 }
