@@ -34,7 +34,7 @@ fn go(places: &[[f64; 2]], starts: &str, seconds: f64, bed: &[(&str, &str)]) -> 
 }
 
 fn check_nobody_touched_or_got_lost(finished: &Finished) {
-    assert!(summary(&finished.run, &SummaryOptions::default()).closest.unwrap().gap > 0.0);
+    assert_eq!(finished.run.contacts, []);
     // The operator's verdict comes too early on a short run.
     let complaints = finished.complaints.iter().filter(|line| !line.contains("/operator:"));
     assert_eq!(complaints.collect::<Vec<_>>(), Vec::<&String>::new());

@@ -125,7 +125,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             "m, m, rad: noise added to measured poses; [0.00046, 0.00049, 0.0122] is that of 4.5.3",
         )
         .range(0.0, 1.0),
-        P::integer("added_noise.seed", 1, "of the added noise").range(0.0, 9e15).read_only(),
+        P::integer("added_noise.seed", 1, "of the added noise").read_only(),
     ]
 }
 
@@ -179,7 +179,7 @@ impl Settings {
             pattern,
             together: parameters.f64("cameras.together")?,
             input,
-            noise_seed: parameters.usize("added_noise.seed")? as u64,
+            noise_seed: parameters.i64("added_noise.seed")? as u64,
             frozen: 0,
             pad_ids: pad_ids(parameters)?,
             team: track::Settings { pad, ..track::Settings::new(robots(parameters)?) },
