@@ -6,7 +6,8 @@ mod support;
 
 use support::{Finished, drive, root};
 use trench_bag::run::{SummaryOptions, summary};
-use trench_harness::Ending;
+use trench_harness::{Ending, load, plan};
+use trench_journal::Disk;
 
 /// Drives a launch file to its operator's verdict that all robots stand, and asks ground truth for contacts.
 fn stands(file: &str, arguments: &[(&str, &str)]) -> Finished {
@@ -62,6 +63,22 @@ fn three_robots_pass_a_long_corridor() {
         assert!(widest > 0.0 && widest < 0.27, "{robot} goes through: {widest} m beside the middle");
         assert!(track.poses.last().unwrap().x > 2.6, "{robot}");
     }
+}
+
+#[test]
+fn a_formation_larger_than_the_field_is_refused_where_it_is_launched() {
+    let refused = |file: &str, formation: &str| -> String {
+        let arguments = [("formation".to_owned(), formation.to_owned())].into();
+        let plan = plan(&root().join("launch").join(file), &arguments).unwrap();
+        load(&plan, &Disk, 1).map(drop).map_err(|error| error.to_string()).err().unwrap_or_default()
+    };
+    // The swarm stands on 4 m x 2.8 m, the sinusoid on 7.6 m x 2.8 m.
+    for (file, formation) in [("square.launch.yaml", "swarm"), ("chain.launch.yaml", "sinusoid")] {
+        let said = refused(file, formation);
+        assert!(said.contains("formation_file") && said.contains("is outside the field"), "{file}: {said}");
+    }
+    assert_eq!(refused("square.launch.yaml", "square_slow"), "");
+    assert_eq!(refused("column.launch.yaml", "wings"), "", "the target's frame goes where the target goes");
 }
 
 #[test]
