@@ -143,6 +143,30 @@ fn a_crash_loop_is_bounded_and_reported() {
 }
 
 #[test]
+fn a_node_that_refuses_its_configuration_ends_the_run_and_has_the_last_word() {
+    // The second is told to end while it is about to say the same: said once.
+    let refuses =
+        "exec: sh, respawn: \"true\", args: \"-c 'trap : INT; sleep 0.3; echo gain = 9: write 4.6 >&2; exit 3'\"";
+    let late = "exec: sh, respawn: \"true\", args: \"-c 'trap : INT; sleep 9; echo gain = 9: write 4.6 >&2; exit 3'\"";
+    let (code, _, log) =
+        run(&format!("- node: {{{refuses}}}\n- node: {{{late}}}\n- executable: {{cmd: sleep 1000}}\n"));
+    assert_eq!(code, Some(3), "{log}");
+    assert_eq!(log.matches("process started").count(), 3, "{log}");
+    assert!(log.contains("[sh-1]: refuses what it was started with: that ends the run"), "{log}");
+    assert!(log.contains("[sleep-3]: process has finished cleanly"), "{log}");
+    assert!(log.contains("[sh-2] gain = 9: write 4.6\n"), "{log}");
+    assert!(log.ends_with("[ERROR] [sh-1]: refused what it was started with:\ngain = 9: write 4.6\n"), "{log}");
+}
+
+#[test]
+fn the_code_of_a_refusal_means_nothing_where_the_process_is_no_node() {
+    let executable = "cmd: \"sh -c 'exit 3'\", respawn: \"true\", respawn_delay: 0.01, respawn_max_retries: 2";
+    let (code, _, log) = run(&format!("- executable: {{{executable}}}\n"));
+    assert_eq!(code, Some(1), "{log}");
+    assert_eq!(log.matches("process started").count(), 3, "{log}");
+}
+
+#[test]
 fn a_process_that_somebody_stops_is_named() {
     let run = Run::start("- executable: {cmd: sleep 60, name: sleeper}\n");
     let log = run.wait_for(&["process started with pid ["]);

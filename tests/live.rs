@@ -7,9 +7,11 @@ mod live_support;
 mod tuned;
 
 use live_support::{Launch, domain};
+use rustix::process::{Pid, test_kill_process};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// Launches an experiment with the default profile and holds its bag against the bounds of that.
 fn tuned_profile_keeps_its_bounds(launch: &Launch, file: &str) {
@@ -86,20 +88,63 @@ fn live_a_run_that_does_not_form_says_so() {
     assert!(text.contains("the formation does not stand: further than 0.001 m from their goals: robot1"), "{text}");
 }
 
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let to = to.join(entry.file_name());
+        match entry.file_type().unwrap().is_dir() {
+            true => copy(&entry.path(), &to),
+            false => drop(std::fs::copy(entry.path(), to).unwrap()),
+        }
+    }
+}
+
+/// Has `launch` use copies of the repository's files, in one of which `text` is replaced.
+fn change(launch: &mut Launch, file: &str, [text, by]: [&str; 2]) {
+    let copies = launch.folder.path().join("copies");
+    for folder in ["launch", "config"] {
+        copy(&launch.root.join(folder), &copies.join(folder));
+    }
+    let file = copies.join(file);
+    let before = std::fs::read_to_string(&file).unwrap();
+    assert_eq!(before.matches(text).count(), 1, "{text} in {}", file.display());
+    std::fs::write(&file, before.replace(text, by)).unwrap();
+    launch.root = copies;
+}
+
+/// Launches the square for ten minutes with `text` replaced in one of its files: the launch ends by itself and at once, and
+/// its last words are those of the node `program`, which name what to mend.
+fn is_refused(offset: u32, file: &str, replaced: [&str; 2], program: &str, words: &[&str]) {
+    let mut launch = Launch::new(domain(offset));
+    change(&mut launch, file, replaced);
+    let start = Instant::now();
+    let output = launch.recording("square.launch.yaml", &["duration:=600.0"]).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    // Starting ten processes on a busy machine takes most of this.
+    assert!(start.elapsed() < Duration::from_secs(30), "{:?}\n{said}", start.elapsed());
+    launch.left_nothing_behind();
+    let pids = said.split("process started with pid [").skip(1).map(|rest| rest.split_once(']').unwrap().0);
+    let pids: Vec<_> = pids.map(|pid| Pid::from_raw(pid.parse().unwrap()).unwrap()).collect();
+    assert!(pids.len() >= 10 && pids.iter().all(|pid| test_kill_process(*pid).is_err()), "{pids:?}\n{said}");
+    let last = said.lines().last().unwrap();
+    assert!(last.starts_with(&format!("{program}: ")), "{said}");
+    assert!(words.iter().all(|word| last.contains(word)), "{last}");
+}
+
 #[test]
-fn live_a_wrong_gain_stops_the_launch_with_its_equation() {
-    let launch = Launch::new(domain(3));
-    let profile = launch.folder.path().join("wrong.yaml");
-    let text = "/**/formation_controller:\n  ros__parameters:\n    gains: {k1: 0.1, k2: 1.0, k3: 9.0}\n";
-    std::fs::write(&profile, text).unwrap();
-    let output = Command::new(Path::new(env!("CARGO_BIN_EXE_trench")).with_file_name("formation_controller"))
-        .args(["--ros-args", "-r", "__ns:=/robot1", "--params-file"])
-        .arg(&profile)
-        .env("ROS_DOMAIN_ID", launch.domain.to_string())
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(3));
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(said.contains("wrong.yaml:3: gains.k3 = 9"), "{said}");
-    assert!(said.contains("K3 < K1 + 2 c1 K2") && said.contains("write 4.6"), "{said}");
+fn live_a_wrong_gain_ends_the_launch_with_its_equation() {
+    let words = ["config/profiles/tuned.yaml:7: gains.k3 = 15", "K3 < K1 + 2 c1 K2 = 12.5083", "write 12.3683"];
+    is_refused(3, "config/profiles/tuned.yaml", ["k3: 1.2", "k3: 15.0"], "formation_controller", &words);
+}
+
+#[test]
+fn live_a_vertex_beside_its_segment_ends_the_launch() {
+    let words = [
+        "config/formations/square.yaml:17: queues[1].vertices[0]: is 0.0500 m away from the segment",
+        "[1.2750, 1.3000]",
+    ];
+    let change = ["[[1.275, 1.30], ", "[[1.275, 1.35], "];
+    is_refused(3, "config/formations/square.yaml", change, "leader_assignment", &words);
 }

@@ -10,13 +10,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 use trench_launch::{Options, Output, Plan, Process, Request, Respawn};
+use trench_runtime::Exit;
 
 const EXIT_CODES: &str = "\
 Exit codes:
   0    all processes finished cleanly, or the one marked `on_exit: shutdown` ended with 0: the run reached its goal
   n    the process marked `on_exit: shutdown` ended with n (128 + signal if a signal ended it)
   1    a process failed and none is marked `on_exit: shutdown`
-  2    the launch file or the arguments are wrong; nothing was started
+  2    the launch file or the arguments are wrong, and nothing was started; or a node refused its command line
+  3    a node refused its parameters, or a file that they name: it is not started again, the run ends, its words come last
   130  interrupted before the process marked `on_exit: shutdown` ended";
 
 /// Starts and supervises the processes of a ROS 2 launch file in YAML.
@@ -103,7 +105,10 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
         return Ok(0);
     }
     eprintln!("trench launch: run folder {}", run_folder.display());
-    Ok(trench_launch::supervise(&plan, &Options::new(&run_folder.join("log")))?.exit_code())
+    // What they mean no restart can mend.
+    let refusals = vec![Exit::Usage as u8, Exit::Configuration as u8];
+    let options = Options { refusals, ..Options::new(&run_folder.join("log")) };
+    Ok(trench_launch::supervise(&plan, &options)?.exit_code())
 }
 
 /// Variables that all processes get: the folder of this program first on PATH, so that launch files name our nodes

@@ -6,7 +6,7 @@ mod own_memory;
 mod programs;
 
 use own_memory::OwnMemory;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, ExitStatus};
 use trench_bag::BagReader;
 use trench_bag::run::{Run, RunSummary, SummaryOptions, summary};
@@ -17,11 +17,14 @@ pub(crate) struct Launch {
     pub(crate) domain: u32,
     /// Variables of the processes.
     pub(crate) variables: Vec<(&'static str, String)>,
+    /// Where the folders `launch` and `config` are.
+    pub(crate) root: PathBuf,
 }
 
 impl Launch {
     pub(crate) fn new(domain: u32) -> Self {
-        Self { folder: tempfile::tempdir().unwrap(), domain, variables: Vec::new() }
+        let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+        Self { folder: tempfile::tempdir().unwrap(), domain, variables: Vec::new(), root }
     }
 
     fn bag(&self) -> PathBuf {
@@ -45,10 +48,9 @@ impl Launch {
 
     /// The launch of a file, with run folder, state and shared memory of its own; with a `host`, those of that host.
     pub(crate) fn command(&self, file: &str, host: &str) -> Command {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let own = |name: &str| self.folder.path().join(format!("{name}{host}"));
         let mut command = Command::new(programs::trench());
-        command.arg("launch").arg(root.join("launch").join(file)).arg("--run-dir").arg(own("run"));
+        command.arg("launch").arg(self.root.join("launch").join(file)).arg("--run-dir").arg(own("run"));
         command.env("ROS_DOMAIN_ID", self.domain.to_string());
         command.env("TRENCH_SHM_PREFIX", self.shared_memory(host)).env("TRENCH_STATE_DIR", own("state"));
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
@@ -65,7 +67,7 @@ impl Launch {
 
     /// What a launch has used is free again once it has ended: the serial port's link and shared memory, but for the few
     /// bytes in which iceoryx2 counts the nodes of a prefix.
-    fn left_nothing_behind(&self) {
+    pub(crate) fn left_nothing_behind(&self) {
         let port = self.folder.path().join("port");
         assert!(port.symlink_metadata().is_err(), "{} is still there", port.display());
         let names =

@@ -19,6 +19,8 @@ pub struct Plan {
 pub struct Process {
     /// `name-N`, N counting from 1 in the order of the file: the prefix of its output.
     pub label: String,
+    /// Whether it is a ROS node, which says by its exit code that it refuses its configuration.
+    pub is_node: bool,
     /// Program and arguments. The program is a path or a name on PATH.
     pub argv: Vec<String>,
     /// Variables that differ from the launcher's own: their values, or `None` where they are unset.

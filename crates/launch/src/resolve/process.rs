@@ -32,6 +32,7 @@ impl Resolver<'_> {
         };
         let process = Process {
             label: format!("{label}-{index}"),
+            is_node: matches!(action.command, Command::Node(_)),
             argv,
             environment: self.environment(&action.environment, scope)?,
             folder: action.folder.as_ref().map(|folder| folder.perform(scope)).transpose()?.map(PathBuf::from),

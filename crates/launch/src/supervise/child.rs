@@ -1,7 +1,7 @@
 //! One running process and its process group.
 
 use super::Event;
-use super::output::{Console, Screen};
+use super::output::{Console, LastWords, Screen};
 use crate::plan::{Output, Process};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, getpid, getppid, kill_process_group};
 use std::io;
@@ -14,6 +14,7 @@ use std::sync::mpsc::Sender;
 pub(super) struct Running {
     child: Child,
     pid: Pid,
+    last_words: LastWords,
 }
 
 impl Running {
@@ -28,11 +29,12 @@ impl Running {
         let mut command = command(process);
         die_with_parent(&mut command);
         let mut child = command.spawn()?;
-        let watched = forward_output(process, &mut child, console, alive).and_then(|()| {
+        let last_words = LastWords::default();
+        let watched = forward_output(process, &mut child, &last_words, console, alive).and_then(|()| {
             let (pid, label, events) = (Pid::from_child(&child), &process.label, events.clone());
             std::thread::Builder::new().name(format!("wait {label}")).spawn(move || tell_changes(pid, member, &events))
         });
-        let running = Self { pid: Pid::from_child(&child), child };
+        let running = Self { pid: Pid::from_child(&child), child, last_words };
         if let Err(error) = watched {
             // It runs, but nobody would notice its end.
             running.signal(Signal::KILL);
@@ -44,6 +46,11 @@ impl Running {
 
     pub(super) fn pid(&self) -> Pid {
         self.pid
+    }
+
+    /// What it says on standard error; complete once its output has been read to the end.
+    pub(super) fn last_words(&self) -> LastWords {
+        self.last_words.clone()
     }
 
     /// Signals the whole group. Nothing happens where it has ended.
@@ -58,14 +65,20 @@ impl Running {
     }
 }
 
-fn forward_output(process: &Process, child: &mut Child, console: &Console, alive: &Sender<()>) -> io::Result<()> {
+fn forward_output(
+    process: &Process,
+    child: &mut Child,
+    last_words: &LastWords,
+    console: &Console,
+    alive: &Sender<()>,
+) -> io::Result<()> {
     let log = console.log_of(&process.label);
     let screen = if process.output == Output::Screen { Screen::Out } else { Screen::None };
     if let Some(stream) = child.stdout.take() {
-        console.forward(stream, &process.label, screen, log.clone(), alive.clone())?;
+        console.forward(stream, &process.label, screen, log.clone(), None, alive.clone())?;
     }
     if let Some(stream) = child.stderr.take() {
-        console.forward(stream, &process.label, Screen::Error, log, alive.clone())?;
+        console.forward(stream, &process.label, Screen::Error, log, Some(last_words.clone()), alive.clone())?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! One process of the plan through its lives.
 
 use super::child::Running;
-use super::output::Console;
+use super::output::{Console, LastWords};
 use super::{Event, Options};
 use crate::plan::Process;
 use rustix::process::Signal;
@@ -21,6 +21,8 @@ pub(super) struct Member<'a> {
     short_lives: u32,
     /// Whether its last life ended badly.
     failed: bool,
+    /// What it said, if its configuration is what it refused.
+    refusal: Option<LastWords>,
 }
 
 enum State {
@@ -45,11 +47,13 @@ pub(super) enum Step {
     Continue,
     /// It is over, with this exit code.
     EndRun { code: u8 },
+    /// It is over with this exit code: no life of this process could be any better.
+    Refused { code: u8 },
 }
 
 impl<'a> Member<'a> {
     pub(super) fn new(index: usize, process: &'a Process, at: Instant) -> Self {
-        Self { index, process, state: State::Waiting { at }, retries: 0, short_lives: 0, failed: false }
+        Self { index, process, state: State::Waiting { at }, retries: 0, short_lives: 0, failed: false, refusal: None }
     }
 
     pub(super) fn label(&self) -> &str {
@@ -66,6 +70,11 @@ impl<'a> Member<'a> {
 
     pub(super) fn failed(&self) -> bool {
         self.failed
+    }
+
+    /// What it said when it refused its configuration.
+    pub(super) fn refusal(&self) -> Option<(&str, LastWords)> {
+        self.refusal.as_ref().map(|words| (self.label(), words.clone()))
     }
 
     /// When [`Self::act`] has something to do.
@@ -142,7 +151,7 @@ impl<'a> Member<'a> {
         let State::Running { running, since, ending } = std::mem::replace(&mut self.state, State::Ended) else {
             return Step::Continue;
         };
-        let pid = running.pid();
+        let (pid, last_words) = (running.pid(), running.last_words());
         let status = match running.reap() {
             Ok(status) => status,
             Err(error) => {
@@ -158,11 +167,17 @@ impl<'a> Member<'a> {
             true => console.say("ERROR", self.label(), &format!("process has died [pid {pid}, {status}]")),
             false => console.say("INFO", self.label(), &format!("process has finished cleanly [pid {pid}]")),
         }
+        let code = exit_code(status);
+        let refused = self.process.is_node && options.refusals.contains(&code);
+        self.refusal = refused.then_some(last_words);
         if run_is_ending {
             return Step::Continue;
         }
+        if refused {
+            return Step::Refused { code };
+        }
         if self.process.ends_run {
-            return Step::EndRun { code: exit_code(status) };
+            return Step::EndRun { code };
         }
         self.start_again(since.elapsed(), console, options);
         Step::Continue

@@ -13,7 +13,7 @@ pub use outcome::Outcome;
 use crate::package::which;
 use crate::plan::{Plan, Process};
 use member::{Member, Step};
-use output::Console;
+use output::{Console, LastWords};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -32,13 +32,21 @@ pub struct Options {
     pub short_life: Duration,
     /// After so many short lives in a row a process is not started again.
     pub most_short_lives: u32,
+    /// The exit codes by which a node says that it refuses its command line or configuration: it is not started again, and
+    /// the run ends with that code.
+    pub refusals: Vec<u8>,
 }
 
 impl Options {
-    /// The usual limits: five lives in a row of less than a second.
+    /// The usual limits: five lives in a row of less than a second. No exit code is a refusal.
     #[must_use]
     pub fn new(log_folder: &Path) -> Self {
-        Self { log_folder: log_folder.to_owned(), short_life: Duration::from_secs(1), most_short_lives: 5 }
+        Self {
+            log_folder: log_folder.to_owned(),
+            short_life: Duration::from_secs(1),
+            most_short_lives: 5,
+            refusals: Vec::new(),
+        }
     }
 }
 
@@ -90,13 +98,37 @@ pub fn supervise(plan: &Plan, options: &Options) -> Result<Outcome, SuperviseErr
         .enumerate()
         .map(|(index, process)| Member::new(index, process, start + process.start_after))
         .collect();
-    let mut run = Run { members, options, console, sender, alive, ending: false, interrupted: false, goal: None };
+    let mut run = Run {
+        members,
+        options,
+        console: console.clone(),
+        sender,
+        alive,
+        ending: false,
+        interrupted: false,
+        goal: None,
+        refused: None,
+    };
     run.until_all_ended(&events);
     let outcome = run.outcome();
+    let refusals = run.refusals();
     drop(run);
     // Readers hold the other ends: the channel closes when the last line of output is written.
     let _ = all_read.recv_timeout(LAST_WORDS);
+    repeat(&refusals, &console);
     Ok(outcome)
+}
+
+/// Says once more, below all that others said while they ended, what must be mended: robots of one team refuse the same.
+fn repeat(refusals: &[(String, LastWords)], console: &Console) {
+    let mut said = Vec::new();
+    for (label, words) in refusals {
+        let text = words.text();
+        if !said.contains(&text) {
+            console.say("ERROR", label, &format!("refused what it was started with:\n{text}"));
+            said.push(text);
+        }
+    }
 }
 
 /// Names all programs that do not exist, before any is started.
@@ -160,6 +192,8 @@ struct Run<'a> {
     interrupted: bool,
     /// The exit code of the process whose end was to end the run.
     goal: Option<u8>,
+    /// The exit code of the node that refused its configuration first.
+    refused: Option<u8>,
 }
 
 impl Run<'_> {
@@ -204,23 +238,35 @@ impl Run<'_> {
 
     fn reap(&mut self, index: usize) {
         let step = self.members[index].reap(&self.console, self.options, self.ending);
-        if let Step::EndRun { code } = step
-            && !self.ending
-        {
-            self.goal = Some(code);
-            let label = self.members[index].label().to_owned();
-            self.console.say("INFO", &label, "its end ends the run");
-            self.end_all();
+        let label = self.members[index].label().to_owned();
+        match step {
+            Step::EndRun { code } => {
+                self.goal = Some(code);
+                self.console.say("INFO", &label, "its end ends the run");
+                self.end_all();
+            }
+            Step::Refused { code } => {
+                self.refused = Some(code);
+                self.console.say("ERROR", &label, "refuses what it was started with: that ends the run");
+                self.end_all();
+            }
+            Step::Continue => {}
         }
+    }
+
+    fn refusals(&self) -> Vec<(String, LastWords)> {
+        let refusals = self.members.iter().filter_map(Member::refusal);
+        refusals.map(|(label, words)| (label.to_owned(), words)).collect()
     }
 
     fn outcome(&self) -> Outcome {
         let has_goal = self.members.iter().any(Member::ends_run);
-        match self.goal {
-            Some(code) => Outcome::Goal { code },
-            None if self.interrupted && has_goal => Outcome::Interrupted,
-            None if self.members.iter().any(Member::failed) => Outcome::Failed,
-            None => Outcome::Clean,
+        match (self.refused, self.goal) {
+            (Some(code), _) => Outcome::Refused { code },
+            (None, Some(code)) => Outcome::Goal { code },
+            _ if self.interrupted && has_goal => Outcome::Interrupted,
+            _ if self.members.iter().any(Member::failed) => Outcome::Failed,
+            _ => Outcome::Clean,
         }
     }
 }

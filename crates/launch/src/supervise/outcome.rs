@@ -10,6 +10,11 @@ pub enum Outcome {
         /// Its exit code.
         code: u8,
     },
+    /// A node refused its command line or configuration with this exit code; the others were told to end.
+    Refused {
+        /// Its exit code.
+        code: u8,
+    },
     /// A process failed, crashed again and again, or had to be killed; there was no process to decide.
     Failed,
     /// A signal ended the run before the process that decides did.
@@ -17,13 +22,13 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// The exit code of `trench launch`: 0 for [`Self::Clean`], the process's own for [`Self::Goal`], 1 for
+    /// The exit code of `trench launch`: 0 for [`Self::Clean`], the process's own for [`Self::Goal`] and [`Self::Refused`], 1 for
     /// [`Self::Failed`], 130 for [`Self::Interrupted`].
     #[must_use]
     pub fn exit_code(self) -> u8 {
         match self {
             Self::Clean => 0,
-            Self::Goal { code } => code,
+            Self::Goal { code } | Self::Refused { code } => code,
             Self::Failed => 1,
             Self::Interrupted => 130,
         }

@@ -1,6 +1,7 @@
 //! Where lines go: the screen, `launch.log`, and a log file for each process.
 
 use super::SuperviseError;
+use std::collections::VecDeque;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -9,6 +10,29 @@ use std::sync::{Arc, Mutex};
 
 /// Longer lines are cut into pieces of this length, so that a process cannot fill the memory.
 const LONGEST_LINE: u64 = 64 * 1024;
+
+/// How many lines of a process's standard error are kept, for it to be quoted at the end of the run.
+const MOST_LAST_WORDS: usize = 20;
+
+/// The last lines that a process wrote on its standard error.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LastWords(Arc<Mutex<VecDeque<String>>>);
+
+impl LastWords {
+    fn add(&self, line: &str) {
+        if let Ok(mut lines) = self.0.lock() {
+            if lines.len() == MOST_LAST_WORDS {
+                lines.pop_front();
+            }
+            lines.push_back(line.to_owned());
+        }
+    }
+
+    /// All of them, a line each.
+    pub(super) fn text(&self) -> String {
+        self.0.lock().map(|lines| lines.iter().cloned().collect::<Vec<_>>().join("\n")).unwrap_or_default()
+    }
+}
 
 /// Writes lines. All copies share their files.
 #[derive(Debug, Clone)]
@@ -51,13 +75,14 @@ impl Console {
         }
     }
 
-    /// Forwards all lines of `stream` in a thread that holds `alive` until the stream ends.
+    /// Forwards all lines of `stream` in a thread that holds `alive` until the stream ends, and keeps the last.
     pub(super) fn forward(
         &self,
         stream: impl Read + Send + 'static,
         label: &str,
         screen: Screen,
         own_log: Option<Arc<Mutex<File>>>,
+        last_words: Option<LastWords>,
         alive: Sender<()>,
     ) -> std::io::Result<()> {
         let console = self.clone();
@@ -68,7 +93,11 @@ impl Console {
             let mut line = Vec::new();
             while matches!(reader.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line), Ok(length) if length > 0) {
                 let text = String::from_utf8_lossy(&line);
-                console.line(&format!("{prefix}{}", text.trim_end_matches(['\n', '\r'])), screen, own_log.as_deref());
+                let text = text.trim_end_matches(['\n', '\r']);
+                console.line(&format!("{prefix}{text}"), screen, own_log.as_deref());
+                if let Some(last_words) = &last_words {
+                    last_words.add(text);
+                }
                 line.clear();
             }
         })?;
