@@ -18,7 +18,8 @@ pub(crate) struct Conformity {
     truth: BTreeMap<String, BTreeMap<i64, [f64; 2]>>,
     frames: BTreeMap<i64, Place>,
     assignments: BTreeMap<i64, Assignment>,
-    segments: Vec<Curve>,
+    /// Of each formation, from when on.
+    segments: BTreeMap<i64, Vec<Curve>>,
     t0: Option<i64>,
 }
 
@@ -46,7 +47,7 @@ impl Conformity {
             "/formation" => {
                 let formation = Formation::decode(cdr).unwrap();
                 let segments = formation.queues.iter().map(|queue| curve_from_message(&queue.segment).unwrap());
-                self.segments = segments.collect();
+                self.segments.insert(nanoseconds(&formation.header.stamp), segments.collect());
             }
             "/assignment" => {
                 let assignment = Assignment::decode(cdr).unwrap();
@@ -80,7 +81,11 @@ impl Conformity {
                 Some(((stamp - t0) as f64 * 1e-9, distance))
             };
             conformed.places.insert(robot.clone(), *track.last_key_value().unwrap().1);
-            conformed.robots.insert(robot.clone(), track.range(t0..).filter_map(distance).collect());
+            let distances: Distances = track.range(t0..).filter_map(distance).collect();
+            // A robot that never had a place has none.
+            if !distances.is_empty() {
+                conformed.robots.insert(robot.clone(), distances);
+            }
         }
         let (_, last) = self.assignments.last_key_value().unwrap();
         let member = |member: &trench_msgs::msg::Member| (member.robot.clone(), member.queue, member.rank);
@@ -96,7 +101,8 @@ impl Conformity {
         let (dx, dy) = (position[0] - x, position[1] - y);
         let (sin, cos) = libm::sincos(theta);
         let in_frame = trench_formation::Vector2::new(cos * dx + sin * dy, cos * dy - sin * dx);
-        Some(self.segments.get(queue as usize)?.nearest(in_frame).distance)
+        let (_, segments) = self.segments.range(..=stamp).next_back()?;
+        Some(segments.get(queue as usize)?.nearest(in_frame).distance)
     }
 }
 

@@ -5,10 +5,12 @@ use leader_assignment::description;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
+use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use trench_msgs::msg::{
     Assignment, Formation, Goal, Goals, LeaderState, LinkStatus, RobotState, RunState, SetFormationRequest,
     SetFormationResponse, TeamState,
 };
+use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_srvs::{TriggerRequest, TriggerResponse};
 use trench_msgs::visualization_msgs::MarkerArray;
 use trench_msgs::{Encode, Message};
@@ -25,14 +27,34 @@ impl Files for Shipped {
 const FILE: (&str, &str) = ("formation_file", "config/formations/square.yaml");
 const ROBOTS: (&str, &str) = ("robots", "[robot1, robot2, robot3, robot4]");
 
+/// A queue of one place, half a metre behind the target.
+struct OnTarget;
+
+impl Files for OnTarget {
+    fn read(&self, _: &str, _: &str) -> Result<String, ConfigError> {
+        Ok("name: wing\nframe: target\nqueues:\n- name: left\n  \
+            segment: {kind: line, points: [[-1.0, 0.0], [0.0, 0.0]]}\n  vertices: [[-0.5, 0.0]]\n  \
+            share: 1.0\n  tolerance: 0.02\n"
+            .to_owned())
+    }
+}
+
 fn make(overrides: &[(&str, &str)], checkpoint: Option<Vec<u8>>) -> Result<Box<dyn NodeCore>, String> {
+    make_of(overrides, checkpoint, &Shipped)
+}
+
+fn make_of(
+    overrides: &[(&str, &str)],
+    checkpoint: Option<Vec<u8>>,
+    files: &dyn Files,
+) -> Result<Box<dyn NodeCore>, String> {
     let sources: Vec<Source<'_>> =
         overrides.iter().map(|(name, value)| Source::Override { node: None, name, value }).collect();
     let node = description();
     let parameters = resolve(&sources, "/", node.name, &(node.parameters)()).map_err(|errors| errors[0].to_string())?;
     let context =
         NodeContext { namespace: "/".to_owned(), name: node.name.to_owned(), checkpoint, ..Default::default() };
-    (node.build)(&context, &parameters, &Shipped).map_err(|error| error.to_string())
+    (node.build)(&context, &parameters, files).map_err(|error| error.to_string())
 }
 
 struct Bench {
@@ -45,12 +67,11 @@ struct Bench {
 
 impl Bench {
     fn new(seconds: f64, checkpoint: Option<Vec<u8>>) -> Self {
-        let mut bench = Self {
-            core: make(&[FILE, ROBOTS], checkpoint).unwrap(),
-            out: Outbox::default(),
-            seconds,
-            assignment: None,
-        };
+        Self::of(make(&[FILE, ROBOTS], checkpoint).unwrap(), seconds)
+    }
+
+    fn of(core: Box<dyn NodeCore>, seconds: f64) -> Self {
+        let mut bench = Self { core, out: Outbox::default(), seconds, assignment: None };
         bench.handle(Event::Started);
         bench
     }
@@ -102,7 +123,11 @@ impl Bench {
             y,
             ..Default::default()
         };
-        let mut team = TeamState { robots: starts.into_iter().enumerate().map(robot).collect(), ..Default::default() };
+        self.see_robots(starts.into_iter().enumerate().map(robot).collect());
+    }
+
+    fn see_robots(&mut self, robots: Vec<RobotState>) {
+        let mut team = TeamState { robots, ..Default::default() };
         team.header.stamp = RosTime(0).plus_seconds(self.seconds).into();
         let cdr = team.to_cdr();
         self.handle(Event::Message { port: 0, source: Default::default(), cdr: &cdr, arrived: None });
@@ -150,7 +175,12 @@ impl Bench {
     }
 
     fn running() -> Self {
-        let mut bench = Self::new(100.0, None);
+        Self::running_with(&[])
+    }
+
+    /// With further parameters.
+    fn running_with(further: &[(&str, &str)]) -> Self {
+        let mut bench = Self::of(make(&[&[FILE, ROBOTS][..], further].concat(), None).unwrap(), 100.0);
         bench.see(RobotState::STATUS_TRACKED);
         assert!(bench.call("arm").success);
         assert!(bench.call("start").success);
@@ -234,24 +264,11 @@ fn yesterday_s_run_does_not_go_on() {
 
 #[test]
 fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
-    struct OnTarget;
-    impl Files for OnTarget {
-        fn read(&self, _: &str, _: &str) -> Result<String, ConfigError> {
-            Ok("name: wing\nframe: target\nqueues:\n- name: left\n  \
-                segment: {kind: line, points: [[-1.0, 0.0], [0.0, 0.0]]}\n  vertices: [[-0.5, 0.0]]\n  \
-                share: 1.0\n  tolerance: 0.02\n"
-                .to_owned())
-        }
-    }
-    let node = description();
-    let sources = [FILE, ("robots", "[robot1]")].map(|(name, value)| Source::Override { node: None, name, value });
-    let parameters = resolve(&sources, "/", node.name, &(node.parameters)()).unwrap();
-    let core = (node.build)(&NodeContext::default(), &parameters, &OnTarget).unwrap();
-    let mut bench = Bench { core, out: Outbox::default(), seconds: 10.0, assignment: None };
-    bench.handle(Event::Started);
+    let core = make_of(&[FILE, ("robots", "[robot1]")], None, &OnTarget).unwrap();
+    let mut bench = Bench::of(core, 10.0);
     bench.see(RobotState::STATUS_TRACKED);
     assert!(bench.last::<Goals>("/goals").is_none(), "nobody knows where the formation is");
-    let mut target = trench_msgs::nav_msgs::Odometry::default();
+    let mut target = Odometry::default();
     (target.pose.pose.position.x, target.pose.pose.position.y) = (1.0, 1.0);
     let quarter = std::f64::consts::FRAC_PI_4;
     (target.pose.pose.orientation.w, target.pose.pose.orientation.z) = (quarter.cos(), quarter.sin());
@@ -272,6 +289,97 @@ fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
     bench.out.take();
     bench.see(RobotState::STATUS_TRACKED);
     assert!(bench.last::<Goals>("/goals").is_none(), "a silent target stops its formation");
+}
+
+/// Level and text of what the node says last of one of its parts.
+fn said(bench: &Bench, part: &str) -> (u8, String) {
+    let port = bench.core.interface().publications.iter().position(|topic| topic.topic == "/diagnostics").unwrap();
+    let said = bench.out.actions.iter().rev().find_map(|action| match action {
+        Action::Publish { port: of, cdr } if *of == port => {
+            let mut status = DiagnosticArray::decode(cdr).unwrap().status.into_iter();
+            status.find(|status| status.name.ends_with(part)).map(|status| (status.level, status.message))
+        }
+        _ => None,
+    });
+    said.unwrap()
+}
+
+/// The goal at a new frame, if there is one; the robot is far from everything.
+fn goal_of_the_target(bench: &mut Bench, robots: &[RobotState]) -> Option<(f64, f64)> {
+    bench.out.take();
+    bench.see_robots([&[tracked("robot1", 3.0, 3.0)][..], robots].concat());
+    bench.last::<Goals>("/goals").map(|goals| (goals.goals[0].position.x, goals.goals[0].position.y))
+}
+
+fn tracked(name: &str, x: f64, y: f64) -> RobotState {
+    RobotState { name: name.to_owned(), status: RobotState::STATUS_TRACKED, x, y, ..Default::default() }
+}
+
+fn target_at(x: f64, speed: f64) -> Odometry {
+    let mut target = Odometry::default();
+    (target.pose.pose.position.x, target.pose.pose.orientation.w, target.twist.twist.linear.x) = (x, 1.0, speed);
+    target
+}
+
+#[test]
+fn a_target_that_jumps_ten_metres_is_named_and_the_formation_goes_on_and_then_stops() {
+    let core = make_of(&[FILE, ("robots", "[robot1]")], None, &OnTarget).unwrap();
+    let mut bench = Bench::of(core, 10.0);
+    bench.see_robots(vec![tracked("robot1", 3.0, 3.0)]);
+    bench.send("/target", &target_at(1.0, 0.2));
+    assert!(bench.call("arm").success && bench.call("start").success);
+    for tick in 1..=4 {
+        bench.seconds += 0.1;
+        // The believed motion goes on, half a metre ahead of the place.
+        let x = 0.5 + 0.02 * f64::from(tick);
+        let goal = goal_of_the_target(&mut bench, &[]).unwrap();
+        assert!((goal.0 - x).abs() < 1e-9 && goal.1.abs() < 1e-9, "{goal:?}, not ({x}, 0)");
+        bench.send("/target", &target_at(11.0, 0.2));
+        if tick == 1 {
+            let (level, text) = said(&bench, "target");
+            assert_eq!(level, DiagnosticStatus::ERROR);
+            assert!(text.contains("it jumped by 9.98 m, more than target.jump"), "{text}");
+        }
+    }
+    bench.seconds += 0.2;
+    bench.send("/target", &target_at(11.0, 0.2));
+    assert_eq!(goal_of_the_target(&mut bench, &[]), None, "after age.target nobody knows where the formation is");
+    assert!(bench.call("stop").success && bench.call("reset").success && bench.call("arm").success);
+    bench.send("/target", &target_at(11.0, 0.2));
+    assert_eq!(said(&bench, "target").0, DiagnosticStatus::OK);
+    let goal = goal_of_the_target(&mut bench, &[]);
+    assert_eq!(goal, Some((10.5, 0.0)), "the operator armed: it is believed where it is");
+}
+
+#[test]
+fn a_robot_may_be_the_target() {
+    let parameters = [FILE, ("robots", "[robot1]"), ("target.robot", "robot9")];
+    let mut bench = Bench::of(make_of(&parameters, None, &OnTarget).unwrap(), 10.0);
+    let robot9 = |y: f64, status: u8| RobotState {
+        theta: std::f64::consts::FRAC_PI_2,
+        v: 0.2,
+        status,
+        ..tracked("robot9", 1.0, y)
+    };
+    let seen = [robot9(1.0, RobotState::STATUS_TRACKED)];
+    assert_eq!(goal_of_the_target(&mut bench, &seen), None, "not armed");
+    assert!(bench.call("arm").success && bench.call("start").success);
+    bench.seconds += 0.1;
+    // What others say of a target counts for nothing.
+    bench.send("/target", &target_at(11.0, 0.0));
+    let near = |goal: Option<(f64, f64)>, y: f64| {
+        let (at_x, at_y) = goal.unwrap();
+        assert!((at_x - 1.0).abs() < 1e-9 && (at_y - y).abs() < 1e-9, "{goal:?}, not (1, {y})");
+    };
+    let seen = [robot9(1.02, RobotState::STATUS_TRACKED)];
+    near(goal_of_the_target(&mut bench, &seen), 0.52);
+    bench.seconds += 0.4;
+    let lost = [robot9(5.0, RobotState::STATUS_LOST)];
+    near(goal_of_the_target(&mut bench, &lost), 0.60);
+    bench.seconds += 0.2;
+    assert_eq!(goal_of_the_target(&mut bench, &lost), None, "lost for longer than age.target");
+    let seen = [robot9(1.14, RobotState::STATUS_TRACKED)];
+    near(goal_of_the_target(&mut bench, &seen), 0.64);
 }
 
 #[test]
@@ -313,6 +421,77 @@ fn the_formation_changes_while_running_in_size_and_number() {
     assert_eq!(state.state, RunState::RUNNING);
 }
 
+/// Robots of the last assignment with their queues, in order of name.
+fn queues(bench: &Bench) -> Vec<(String, u32)> {
+    let members = bench.assigned().members.into_iter();
+    let mut queues: Vec<_> = members.map(|member| (member.robot, member.queue)).collect();
+    queues.sort();
+    queues
+}
+
+#[test]
+fn another_formation_of_the_library_comes_by_its_name_for_as_many_robots_as_it_has_places() {
+    let mut bench = Bench::running_with(&[("more_formations", "[config/formations/triangle.yaml]")]);
+    let square = bench.assigned();
+    let refused = bench.set_formation("triangle", 0.0, &[]);
+    assert!(!refused.success && refused.message.contains("4 robots, but triangle has 3 places"), "{refused:?}");
+    assert_eq!(said(&bench, "formation"), (DiagnosticStatus::WARN, refused.message.clone()));
+    assert!(bench.last::<Formation>("/formation").is_none() && bench.last::<Assignment>("/assignment").is_none());
+    let three = ["robot4", "robot1", "robot2"];
+    let answer = bench.set_formation("triangle", 0.0, &three);
+    assert!(answer.success, "{answer:?}");
+    let formation: Formation = bench.last("/formation").unwrap();
+    assert_eq!((formation.name.as_str(), formation.queues.len()), ("triangle", 3));
+    let assignment = bench.assigned();
+    assert_eq!((assignment.epoch, assignment.formation_hash), (square.epoch + 1, formation.hash));
+    let taken = queues(&bench);
+    assert_eq!(taken.iter().map(|(robot, _)| robot.as_str()).collect::<Vec<_>>(), ["robot1", "robot2", "robot4"]);
+    let names: std::collections::BTreeSet<_> = taken.iter().map(|(_, queue)| *queue).collect();
+    assert_eq!(names.len(), 3, "{taken:?}");
+    bench.seconds += 0.1;
+    bench.see(RobotState::STATUS_TRACKED);
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert_eq!((goals.epoch, goals.goals.len()), (assignment.epoch, 3));
+    bench.assignment = Some(assignment);
+    let answer = bench.set_formation("square", 0.0, &["robot1", "robot2", "robot3", "robot4"]);
+    assert!(answer.success, "{answer:?}");
+    assert_eq!((bench.assigned().epoch, bench.assigned().members), (square.epoch + 2, square.members));
+}
+
+#[test]
+fn another_shape_may_come_as_a_message_if_it_has_places_for_all() {
+    let message = |file: &str, robots: &str| -> Formation {
+        let core = make(&[("formation_file", file), ("robots", robots)], None).unwrap();
+        Bench::of(core, 0.0).last("/formation").unwrap()
+    };
+    let mut bench = Bench::running();
+    let square = bench.assigned();
+    bench.out.take();
+    bench.assignment = Some(square.clone());
+    bench.send("/set_formation", &message("config/formations/triangle.yaml", "[robot1]"));
+    let (level, text) = said(&bench, "formation");
+    assert_eq!(level, DiagnosticStatus::WARN);
+    assert!(text.contains("4 robots, but triangle has 3 places"), "{text}");
+    assert_eq!(bench.assigned(), square, "the old one stays");
+    let diagonal = message("config/formations/diagonal.yaml", "[robot1]");
+    bench.send("/set_formation", &diagonal);
+    let now: Formation = bench.last("/formation").unwrap();
+    assert_eq!((now.hash, now.queues.len()), (diagonal.hash, 1));
+    let assignment = bench.assigned();
+    assert_eq!((assignment.epoch, assignment.formation_hash), (square.epoch + 1, now.hash));
+    // One chain now: each robot but the first follows another.
+    let chain = assignment.members.iter().map(|member| member.leader.as_str()).collect::<Vec<_>>();
+    assert_eq!((chain.len(), chain[0], chain[1..].contains(&"")), (4, "", false), "{chain:?}");
+    let goals = |bench: &mut Bench| {
+        bench.seconds += 0.1;
+        bench.out.take();
+        bench.see(RobotState::STATUS_TRACKED);
+        assert!(bench.last::<Assignment>("/assignment").is_none(), "nothing flaps");
+        bench.last::<Goals>("/goals").unwrap()
+    };
+    assert_eq!((goals(&mut bench).epoch, goals(&mut bench).goals.len()), (assignment.epoch, 4));
+}
+
 #[test]
 fn a_formation_that_does_not_fit_is_refused_and_the_old_one_stays() {
     let mut bench = Bench::running();
@@ -334,13 +513,7 @@ fn a_formation_that_does_not_fit_is_refused_and_the_old_one_stays() {
 #[test]
 fn a_formation_larger_than_the_field_is_refused() {
     let field = ("field", "[0.0, 0.0, 2.48, 1.83]");
-    let mut bench = Bench {
-        core: make(&[FILE, ROBOTS, field], None).unwrap(),
-        out: Outbox::default(),
-        seconds: 1.0,
-        assignment: None,
-    };
-    bench.handle(Event::Started);
+    let mut bench = Bench::of(make(&[FILE, ROBOTS, field], None).unwrap(), 1.0);
     let answer = bench.set_formation("", 2.0, &[]);
     assert!(!answer.success && answer.message.contains("outside the field"), "{answer:?}");
     let small = ("field", "[0.0, 0.0, 1.0, 1.0]");
