@@ -10,11 +10,12 @@ mod turns;
 
 use common::{Loop, MS, Texts, strings};
 use trench_config::ParameterValue::{Bool, Double, String as Text};
-use trench_core::{Action, Level, NodeContext};
+use trench_core::{Action, Level, NodeContext, RosTime};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::msg::{DiscArray, LinkStatus, RunState};
 use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::rosgraph_msgs::Clock;
 use trench_msgs::sensor_msgs::{BatteryState, CameraInfo, Image, Range};
 use trench_optics::{Camera, Pad, Pose2};
 
@@ -390,4 +391,23 @@ fn wrong_parameters_are_refused_with_a_remedy() {
     let ids = |ids: &[i64]| ("ids", trench_config::ParameterValue::IntegerArray(ids.to_vec()));
     check(&[port.clone(), ("robots", strings(&["a", "b"])), ids(&[1])], "1 ids for 2 robots");
     check(&[port, ("robots", strings(&["a", "b"])), ids(&[4, 4])], "4 is there twice");
+}
+
+#[test]
+fn its_time_is_told_with_each_frame_where_it_is_asked_for() {
+    let mut both = Loop::new(&[0.4, 0.5, 0.0], &[], &[("publish_clock", Bool(true))], &NO_FILES);
+    let start = both.times().ros;
+    both.run(1000);
+    let told: Vec<Clock> = both.testbed.published("/clock");
+    let frames: Vec<CameraInfo> = both.testbed.published("/overhead/camera_info");
+    assert!(frames.len() > 25 && told.len() == frames.len(), "{} times and {} frames", told.len(), frames.len());
+    let times: Vec<i64> = told.iter().map(|clock| RosTime::from(&clock.clock).0).collect();
+    assert!(times.is_sorted() && times[0] > start.0 && times[times.len() - 1] <= both.times().ros.0);
+    for (time, frame) in times.iter().zip(&frames) {
+        // A frame comes 35 ms after its exposure, at the earliest.
+        let age = (time - RosTime::from(&frame.header.stamp).0) / MS as i64;
+        assert!((35..70).contains(&age), "{age} ms");
+    }
+    let silent = Loop::new(&[0.4, 0.5, 0.0], &[], &[], &NO_FILES);
+    assert!(silent.testbed.core.interface().publications.iter().all(|topic| topic.topic != "/clock"));
 }

@@ -4,8 +4,11 @@ use crate::common::{EPOCH, Loop, MS, Texts};
 use trench_config::ParameterValue;
 use trench_config::ParameterValue::String as Text;
 use trench_core::RosTime;
+use trench_msgs::Encode;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::RunState;
+use trench_msgs::msg::{LinkStatus, RunState};
+use trench_msgs::nav_msgs::Odometry;
+use trench_msgs::sensor_msgs::BatteryState;
 
 /// A file with a fault from the first second on.
 macro_rules! fault {
@@ -107,4 +110,36 @@ fn whom_nobody_commands_is_named() {
     assert_eq!(says(&both, "commands"), "nobody commands: robot2");
     both.drive(15, 2, 0.03, 0.0);
     assert_eq!(says(&both, "commands"), "driving");
+}
+
+#[test]
+fn reports_that_come_twice_count_once() {
+    for key in [false, true] {
+        let mut repeated = 0;
+        let [once, twice] = [false, true].map(|twice| {
+            let mut both = with_faults("faults: []\n", key);
+            for _ in 0..60 {
+                let before = both.testbed.outbox.actions.len();
+                both.drive(1, 2, 0.03, 0.1);
+                repeated += if twice { both.repeat(before) } else { 0 };
+            }
+            both
+        });
+        assert!(repeated > 20, "{repeated} frames came twice");
+        for robot in ["robot1", "robot2"] {
+            let odometry = |both: &Loop| both.bridge.published::<Odometry>(&format!("/{robot}/wheel_odom"));
+            assert!(odometry(&once).last().unwrap().pose.pose.position.x > 0.05, "it went somewhere");
+            assert_eq!(odometry(&twice), odometry(&once), "{robot}");
+            // As bytes: what nobody knows of a battery is no number, which equals nothing.
+            let battery = |both: &Loop| -> Vec<Vec<u8>> {
+                let all = both.bridge.published::<BatteryState>(&format!("/{robot}/battery_state"));
+                all.iter().map(Encode::to_cdr).collect()
+            };
+            assert_eq!(battery(&twice), battery(&once), "{robot}");
+            let link = |both: &Loop| -> LinkStatus { both.bridge.last(&format!("/{robot}/link")) };
+            let (once, twice) = (link(&once), link(&twice));
+            assert!(twice.frames_rejected > 10, "{} were refused", twice.frames_rejected);
+            assert_eq!(LinkStatus { frames_rejected: once.frames_rejected, ..twice }, once, "{robot}");
+        }
+    }
 }

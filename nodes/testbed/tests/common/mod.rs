@@ -222,6 +222,17 @@ impl Loop {
         self.tell_bridge(Event::Bytes { stream: 0, data: bytes });
     }
 
+    /// The bridge hears once more what the base station wrote since this one of the test bed's actions, if that ends with a frame;
+    /// gives how many frames that was.
+    pub(crate) fn repeat(&mut self, since: usize) -> usize {
+        let written: Vec<u8> = self.testbed.outbox.actions[since..].iter().filter_map(bytes).flatten().collect();
+        if written.last() != Some(&0) {
+            return 0;
+        }
+        self.noise_up(&written);
+        written.iter().filter(|byte| **byte == 0).count()
+    }
+
     /// The base station hears these bytes from the line.
     pub(crate) fn noise_down(&mut self, bytes: &[u8]) {
         self.tell_testbed(Event::Bytes { stream: 0, data: bytes });
