@@ -47,6 +47,8 @@ proptest! {
         method in prop_oneof![
             Just((Method::Nearest, false)),
             Just((Method::Directed { direction: None, compensates: true }, false)),
+            Just((Method::Directed { direction: Some(at(0.6, -0.8)), compensates: true }, false)),
+            Just((Method::Directed { direction: Some(at(0.6, 0.8)), compensates: false }, false)),
             Just((Method::Goal(None), true)),
         ],
     ) {

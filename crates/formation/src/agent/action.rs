@@ -36,20 +36,32 @@ pub struct Action {
 pub struct Forces {
     /// Phi' d_hat.
     pub trench: Vector2<f64>,
+    /// What the sliding of the point of attraction adds to it in (6.1), see [`Attraction::sliding`](crate::laws::Attraction::sliding).
+    pub sliding: Vector2<f64>,
     /// Psi' of the leader.
     pub zoning: Vector2<f64>,
     /// Psi_hat' of the other robots.
     pub robots: Vector2<f64>,
     /// Psi_hat^ob' of the obstacles.
     pub obstacles: Vector2<f64>,
-    /// Damping, feedforward and delta of (6.1).
+    /// Damping, feedforward, and what delta of (6.1) does besides: it deflects the robot, without work.
     pub damping: Vector2<f64>,
 }
 
 impl Forces {
     /// What potentials exert: minus the gradient of the Lyapunov function by the robot's position, m/s^2.
     pub fn of_potentials(&self) -> Vector2<f64> {
-        self.trench + self.zoning + self.robots + self.obstacles
+        self.of_trench() + self.walls()
+    }
+
+    /// Minus the gradient of Phi, m/s^2: trench and sliding.
+    pub fn of_trench(&self) -> Vector2<f64> {
+        self.trench + self.sliding
+    }
+
+    /// What keeps robots apart, together and off obstacles, m/s^2.
+    pub fn walls(&self) -> Vector2<f64> {
+        self.zoning + self.robots + self.obstacles
     }
 }
 

@@ -3,7 +3,7 @@ use super::encroach::Encroachers;
 use super::law::Sum;
 use super::remedy::Remedy;
 use super::surroundings::Moment;
-use super::{Action, AgentSettings, Driven, Forces, RemedyState, Surroundings, Work};
+use super::{Action, AgentSettings, Driven, RemedyState, Surroundings, Work};
 use crate::Vector2;
 use crate::curve::Interval;
 use crate::hull::HullError;
@@ -122,7 +122,7 @@ impl<T: Trench> Agent<T> {
         let leader = around.leader.map(|leader| leader.state.coasted(moment.since));
         let attracted = self.attract(around, moment, (robot.position, leader), step);
         self.arrived = attracted.deviation <= self.settings.seeking.settled_distance;
-        let Sum { steered, forces, powers } = self.law(around, moment, (robot, leader), &attracted);
+        let Sum { steered, forces, powers, met } = self.law(around, moment, (robot, leader), &attracted);
         let draws = attracted.attracting.draws;
         Action {
             steered,
@@ -130,7 +130,7 @@ impl<T: Trench> Agent<T> {
             cut: false,
             cut_power: 0.0,
             powers,
-            attraction: draws.then_some(attracted.attracting.foot.position),
+            attraction: draws.then_some(met.unwrap_or(attracted.attracting.foot.position)),
             place: attracted.place,
             deviation: attracted.deviation,
             forces,
@@ -158,9 +158,8 @@ impl<T: Trench> Agent<T> {
         let frame = moment.motion.at(robot.position);
         let sliding = robot.velocity - frame.velocity;
         let wanted = action.acceleration - frame.acceleration;
-        let Forces { trench, zoning, robots, obstacles, .. } = action.forces;
-        let walls = zoning + robots + obstacles;
-        let terms = Terms { walls, attraction: trench, damping: wanted - walls - trench };
+        let (walls, attraction) = (action.forces.walls(), action.forces.of_trench());
+        let terms = Terms { walls, attraction, damping: wanted - walls - attraction };
         let cut = limits.saturate(sliding, terms, step);
         action.cut = cut != wanted;
         action.cut_power = (cut - wanted).dot(&sliding);

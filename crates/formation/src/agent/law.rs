@@ -12,6 +12,8 @@ use crate::trench::{Damping, Trench};
 /// A push within this of straight against the attraction (its sine) is turned by [`SIDESTEP`] (rad).
 const HEAD_ON: f64 = 0.05;
 const SIDESTEP: f64 = 0.15;
+/// A nearest point this far (m, per metre of distance and at all) from straight beside the robot is a corner or an end, which does not slide.
+const BESIDE: f64 = 1e-9;
 
 /// A law as far as its terms are added up.
 #[derive(Default)]
@@ -19,6 +21,8 @@ pub(super) struct Sum {
     pub(super) steered: Steered,
     pub(super) forces: Forces,
     pub(super) powers: Powers,
+    /// The point of attraction of (6.1), where that is the law, m.
+    pub(super) met: Option<Vector2<f64>>,
 }
 
 /// What pushes a robot.
@@ -68,8 +72,8 @@ impl<T: Trench> Agent<T> {
             }
             _ => self.nearest(around, moment, (robot, leader), attracted),
         };
-        let Forces { trench, zoning, robots, obstacles, .. } = sum.forces;
-        sum.forces.damping = sum.steered.acceleration - trench - zoning - robots - obstacles;
+        let Forces { trench, sliding, zoning, robots, obstacles, .. } = sum.forces;
+        sum.forces.damping = sum.steered.acceleration - trench - sliding - zoning - robots - obstacles;
         sum
     }
 
@@ -103,7 +107,7 @@ impl<T: Trench> Agent<T> {
         };
         let Unpushed { acceleration, trench, lyapunov, lyapunov_rate } = law.unpushed(&seen);
         let steered = Steered { acceleration, lyapunov, lyapunov_rate };
-        let mut sum = Sum { steered, forces: Forces { trench, ..Forces::default() }, powers: Powers::default() };
+        let mut sum = Sum { steered, forces: Forces { trench, ..Forces::default() }, ..Sum::default() };
         for other in around.ahead {
             let there = other.coasted(moment.since);
             let push = Push::of_robot_ahead(&settings.zoning, position, there.position);
@@ -138,9 +142,12 @@ impl<T: Trench> Agent<T> {
             ..state
         };
         let (robot_seen, leader_seen) = (seen(robot), seen(leader));
-        let across = direction.unwrap_or_else(|| Vector2::new(-foot.tangent.y, foot.tangent.x));
-        let attraction = Attraction::on_line(robot_seen, across, foot.point, foot.tangent)
-            .unwrap_or(Attraction { point: foot.point, velocity: Vector2::zeros() });
+        let (direction, met) = self.point_of_attraction(moment, robot.position, direction, foot);
+        let (point, slides) = (met.0.point, met.1);
+        let velocity = Attraction::on_line(robot_seen, direction, point, met.0.tangent)
+            .filter(|_| slides)
+            .map_or(Vector2::zeros(), |attraction| attraction.velocity);
+        let attraction = Attraction { point, velocity };
         let law = ZonedAttraction {
             trench: &settings.law.trench,
             zoning: settings.zoning,
@@ -149,7 +156,11 @@ impl<T: Trench> Agent<T> {
             compensates,
         };
         let mut sum = Sum { steered: law.steer(robot_seen, attraction, leader_seen, &[]), ..Sum::default() };
-        sum.forces.trench = crate::laws::pull(&settings.law.trench, attraction.point - robot.position);
+        sum.forces.trench = crate::laws::pull(&settings.law.trench, point - robot.position);
+        if slides {
+            sum.forces.sliding = Attraction::sliding(sum.forces.trench, direction, met.0.tangent);
+        }
+        sum.met = Some(point);
         let push = Push::of_leader(&settings.zoning, robot.position, leader.position);
         sum.account(By::Leader, push, leader_seen.velocity);
         let frame = moment.motion.at(robot.position);
@@ -165,6 +176,25 @@ impl<T: Trench> Agent<T> {
         }
         sum.steered.acceleration += frame.acceleration;
         sum
+    }
+
+    /// The direction of attraction in frame `map`, the point where it meets the qualified fragments, and whether that slides as the robot
+    /// moves. Where a direction meets nothing it is not proper (6.3): what it passes most closely draws instead, and rests. Across the
+    /// segment that point is the nearest one.
+    fn point_of_attraction(
+        &self,
+        moment: &Moment<'_>,
+        robot: Vector2<f64>,
+        direction: Option<Vector2<f64>>,
+        foot: &Foot,
+    ) -> (Vector2<f64>, (Foot, bool)) {
+        let Some(direction) = direction else {
+            let offset = foot.point - robot;
+            let is_beside = offset.dot(&foot.tangent).abs() <= BESIDE * (1.0 + offset.norm());
+            return (Vector2::new(-foot.tangent.y, foot.tangent.x), (*foot, is_beside));
+        };
+        let met = moment.segment.attracting_along(robot, direction, self.fragments.intervals());
+        (direction, met.unwrap_or((*foot, false)))
     }
 
     /// The obstacles that may push a robot, by their indices: the others' potential is cut before it reaches so far.

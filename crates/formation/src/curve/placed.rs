@@ -83,6 +83,21 @@ impl<'a> Placed<'a> {
         feet.into_iter().map(|foot| self.to_map(foot)).collect()
     }
 
+    /// The point of attraction of a robot at `point` along `direction` (not zero, frame `map`), as [`Curve::met_along`]: on `intervals` the
+    /// one nearest to the robot. Where there is none, the end of an interval or the outermost point that the line passes most closely,
+    /// which does not move along with the robot: then false comes with it. Nothing without intervals.
+    pub fn attracting_along(
+        &self,
+        point: Vector2<f64>,
+        direction: Vector2<f64>,
+        intervals: &[Interval],
+    ) -> Option<(Foot, bool)> {
+        let (point, direction) = (self.to_curve(point), self.map_from_curve.rotation.inverse() * direction);
+        let met = self.curve.first_met(point, direction, intervals).map(|foot| (foot, true));
+        let foot = met.or_else(|| Some((self.curve.passed_most_closely(point, direction, intervals)?, false)));
+        foot.map(|(foot, is_met)| (self.to_map(foot), is_met))
+    }
+
     /// A direction of the curve's frame.
     pub fn direction_in_map(&self, direction: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.rotation * direction

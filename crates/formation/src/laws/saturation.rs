@@ -8,9 +8,9 @@ use crate::lanes::{Number, Plane};
 pub struct Terms<V = Vector2<f64>> {
     /// Repulsion and attraction of zones and obstacles.
     pub walls: V,
-    /// Phi' d_hat of the trench.
+    /// Minus the gradient of the trench's Phi: Phi' d_hat, and under (6.1) what [`Attraction::sliding`](super::Attraction::sliding) adds.
     pub attraction: V,
-    /// -k r' and what else takes power out.
+    /// -k r' and what else takes power out or does no work. Nothing that gives power belongs here: it would be cut, and the rest not.
     pub damping: V,
 }
 
@@ -93,6 +93,17 @@ mod tests {
             prop_assert!(applied.norm() <= ROBOT.acceleration * (1.0 + 1e-9));
             prop_assert!((velocity + step * applied).norm() <= ROBOT.speed * (1.0 + 1e-9));
             prop_assert!(velocity.dot(&(applied - walls - attraction)) <= 1e-5);
+        }
+
+        /// A trench that pulls with more than the acceleration is cut to min(Phi', a), which is a trench again: while nothing else acts,
+        /// |v|^2/2 and the potential of that one fall together.
+        #[test]
+        fn a_trench_alone_is_cut_to_a_trench(
+            attraction in vector(9.0), velocity in vector(0.5), damping in 0.0..20.0_f64,
+        ) {
+            let terms = Terms { walls: Vector2::zeros(), attraction, damping: -damping * velocity };
+            let applied = ROBOT.saturate(velocity, terms, 1e-6);
+            prop_assert!(velocity.dot(&(applied - attraction.cap_magnitude(ROBOT.acceleration))) <= 1e-5);
         }
 
         #[test]

@@ -11,7 +11,7 @@ use crate::zoning::Zoning;
 ///
 /// delta = Phi'(d_p) |p'|/|r'| (cos phi, sin phi), phi = theta - (gamma_p - varphi_p) - pi, takes out of V' what the moving
 /// point of attraction brings in. Where p moves across the direction of attraction (perpendicular directions) that is
-/// nothing, and delta only deflects the robot; oblique directions need it.
+/// nothing, and delta only deflects the robot; oblique directions need it. What delta does besides deflecting is [`Attraction::sliding`].
 ///
 /// | thesis | here |
 /// |---|---|
@@ -58,6 +58,20 @@ impl Attraction {
         // Components across the direction of attraction agree between the robot and its point.
         let along = |vector: Vector2<f64>| tangent * (direction.perp(&vector) / crossing);
         Some(Self { point: origin + along(robot.position - origin), velocity: along(robot.velocity) })
+    }
+}
+
+impl Attraction {
+    /// s with s . r' = -F . p' for every velocity r' of the robot, where p slides along the unit `tangent` as the robot moves across
+    /// `direction`: F + s is minus the gradient of Phi(|p - r|) by the robot's position, and delta - s does no work. m/s^2.
+    ///
+    /// For F along the direction, which meets the segment at an angle alpha, F + s is perpendicular to the segment and |F| / sin alpha.
+    pub fn sliding(force: Vector2<f64>, direction: Vector2<f64>, tangent: Vector2<f64>) -> Vector2<f64> {
+        let crossing = direction.perp(&tangent);
+        if crossing == 0.0 {
+            return Vector2::zeros();
+        }
+        force.dot(&tangent) / crossing * Vector2::new(direction.y, -direction.x)
     }
 }
 
