@@ -80,9 +80,8 @@ impl<T: Trench> View<'_, T> {
                 if tells {
                     part.places[index - part.first] = action.place.unwrap_or(robot.position);
                 }
-                if action.deviation.is_finite() {
-                    *deviation = action.deviation;
-                }
+                // Infinite where nothing of the segment is left for the robot: it does not conform.
+                *deviation = action.deviation;
             }
         }
     }

@@ -21,7 +21,7 @@ impl Remedy {
         };
         let obstacle = &sight.around.apparent[index];
         let outline = obstacle.shape.outline();
-        let suspended = State::Suspended { until: sight.time() + settings.patience };
+        let suspended = State::Suspended { until: sight.time() + settings.patience, within: Some(obstacle.id) };
         if gap < 0.0 {
             let walls: Vec<Outline<'_>> = sight.around.real.iter().map(|real| real.shape.outline()).collect();
             let (room, cut) = (sight.potential.pole_with_margin(), sight.potential.cut());

@@ -25,8 +25,8 @@ enum State {
     Free,
     /// A guard stands before the obstacle of an id, still `sunk` (m) below its place.
     Guarded { obstacle: u32, guard: Guard, sunk: f64 },
-    /// No attraction until a time, s (Remark 6.4.1).
-    Suspended { until: f64 },
+    /// No attraction until a time, s (Remark 6.4.1); within the hull of an obstacle of an id, out of which there is no way.
+    Suspended { until: f64, within: Option<u32> },
     /// Inside an obstacle's hull, after a `carrot` that goes along the way ahead.
     Escaping { obstacle: u32, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
     /// Round teammates ahead, after a `carrot` that goes along the way ahead, until a time at the latest, s.
@@ -76,10 +76,15 @@ impl Remedy {
 
     /// Whether it changes what [`Self::approach`] says of the obstacle of an id.
     pub(super) fn concerns(&self, id: u32) -> bool {
-        matches!(&self.state, State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. } if *obstacle == id)
+        match &self.state {
+            State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. } => *obstacle == id,
+            State::Suspended { within, .. } => *within == Some(id),
+            State::Free | State::Led { .. } => false,
+        }
     }
 
-    /// Distance and direction of an apparent obstacle with its guard; of its nearest member while the robot is on its way out.
+    /// Distance and direction of an apparent obstacle with its guard; of its nearest member while the robot is on its way out, or has none:
+    /// the hull would throw a robot that it encloses through a wall.
     pub(super) fn approach(
         &self,
         around: &Surroundings<'_>,
@@ -94,7 +99,7 @@ impl Remedy {
             State::Guarded { obstacle: id, guard, sunk } if *id == obstacle.id => {
                 guard.sunk(*sunk).approach(&outline, robot)
             }
-            State::Escaping { obstacle: id, .. } if *id == obstacle.id => {
+            State::Escaping { obstacle: id, .. } | State::Suspended { within: Some(id), .. } if *id == obstacle.id => {
                 let members = around.real.iter().filter(|real| obstacle.members.contains(&real.id));
                 let approaches = members.map(|real| real.shape.outline().approach(robot));
                 approaches.min_by(|a, b| a.gap.total_cmp(&b.gap)).unwrap_or_else(|| outline.approach(robot))
@@ -121,7 +126,12 @@ impl Remedy {
 
     /// A tick: guards have gone on with their obstacles, and what is gone needs no remedy.
     pub(super) fn carry_on(&mut self, around: &Surroundings<'_>, elapsed: f64) {
-        let (State::Guarded { obstacle, .. } | State::Escaping { obstacle, .. }) = &self.state else { return };
+        let (State::Guarded { obstacle, .. }
+        | State::Escaping { obstacle, .. }
+        | State::Suspended { within: Some(obstacle), .. }) = &self.state
+        else {
+            return;
+        };
         let Some(index) = around.apparent.iter().position(|other| other.id == *obstacle) else {
             *self = Self::default();
             return;
@@ -150,7 +160,11 @@ impl Remedy {
                     held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, true);
                 }
             }
-            State::Suspended { until } if sight.time() >= *until => *self = Self::default(),
+            State::Suspended { until, .. } if sight.time() >= *until => {
+                *self = Self::default();
+                // A robot that is still enclosed looks for a way at once.
+                self.choose(sight, robot, drawn);
+            }
             State::Suspended { .. } => {}
             State::Escaping { obstacle, carrot, way } => {
                 let cut = sight.potential.cut();

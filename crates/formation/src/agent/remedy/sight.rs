@@ -80,7 +80,7 @@ impl Sight<'_> {
                 let until = self.time() + patience + 2.0 * length / self.remedies.rising;
                 State::Led { until, carrot: robot, way }
             }
-            None => State::Suspended { until: self.time() + patience },
+            None => State::Suspended { until: self.time() + patience, within: None },
         }
     }
 
