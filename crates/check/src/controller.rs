@@ -2,11 +2,13 @@
 
 use crate::Verdict;
 use crate::gains::{exponents, gains};
+use crate::limits::{Largest, of_controller};
 use crate::potential::potential;
 use crate::verdict::number;
 use crate::zones::zones;
 use trench_config::{ConfigError, Parameters};
 use trench_formation::laws::{Family, Robust};
+use trench_formation::trench::check_admissibility;
 use trench_plan::{TRENCH_RANGE, trench_from_parameters};
 
 /// A formation_controller by its full name, with its parameters.
@@ -21,7 +23,7 @@ pub struct Controller {
 /// Chains with less damping than this (1/s) and none towards their leaders whip (ERRATA on 6.5 and 7.10).
 const LEAST_CHAIN_DAMPING: f64 = 2.0;
 
-/// Judges the law of a controller: gains, potential, zones, damping.
+/// Judges the law of a controller: gains, potential, zones, damping, limits.
 ///
 /// # Errors
 /// When a parameter is missing or of another type than controllers declare.
@@ -58,7 +60,8 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
         )]);
     }
     let shape = parameters.str("trench.shape")?;
-    let verdict = potential(name, &trench_from_parameters(parameters)?, TRENCH_RANGE);
+    let trench = trench_from_parameters(parameters)?;
+    let verdict = potential(name, &trench, TRENCH_RANGE);
     let mut verdicts = vec![Verdict { finding: format!("{shape}: {}", verdict.finding), ..verdict }];
     let damping = parameters.f64("damping")?;
     if matches!(law, "zoned" | "chain") {
@@ -68,6 +71,15 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
     } else if law != "goal_damped" {
         let finding = format!("k = {}: V' = -k |r'|^2", number(damping));
         verdicts.push(Verdict::new("damping", name, damping > 0.0, finding, "k > 0 (Theorem 5.3.1, A.10)"));
+    }
+    // The trench of (5.2) is its own, and has no bound.
+    if law != "goal_damped" {
+        let pull = check_admissibility(&trench, TRENCH_RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+        let full = parameters.f64("zones.full_acceleration")?;
+        let zones = if matches!(law, "zoned" | "chain") { full } else { 0.0 };
+        let largest = Largest { trench: pull, zones, obstacles: full };
+        let oblique = law == "zoned" && !parameters.f64_list("zoned.direction")?.is_empty();
+        verdicts.push(of_controller(name, &largest, parameters.f64("motion.acceleration")?, oblique));
     }
     Ok(verdicts)
 }

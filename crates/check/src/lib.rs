@@ -7,6 +7,7 @@ mod chain;
 mod controller;
 mod direction;
 mod gains;
+mod limits;
 mod potential;
 mod queue;
 mod report;

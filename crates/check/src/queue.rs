@@ -225,6 +225,8 @@ fn growth(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
     let ([rho_underbar, rho_hat, rho, ..], gains) = (team.zones?, team.chain_gains?);
     let robots = queue.places.len();
     let spacing = queue.chain.map_or(rho_hat, |chain| chain.spacing).min(rho);
-    let of = ChainOfRobots { robots, gains, initial_error: queue.tolerance, tolerance: spacing - rho_underbar };
+    let instead_of = (team.law != "queue").then_some(team.law.as_str());
+    let of =
+        ChainOfRobots { instead_of, robots, gains, initial_error: queue.tolerance, tolerance: spacing - rho_underbar };
     (robots > 1).then(|| chain(&format!("{subject}, queue {}", queue.name), &of))
 }

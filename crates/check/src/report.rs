@@ -19,8 +19,8 @@ impl Report {
         let mut kept: Vec<Verdict> = Vec::new();
         for verdict in verdicts {
             let same = |other: &&mut Verdict| {
-                (other.check, other.holds, &other.finding, other.equation)
-                    == (verdict.check, verdict.holds, &verdict.finding, verdict.equation)
+                (other.check, other.holds, other.note, &other.finding, other.equation)
+                    == (verdict.check, verdict.holds, verdict.note, &verdict.finding, verdict.equation)
             };
             match kept.iter_mut().find(same) {
                 Some(other) => {
@@ -38,18 +38,29 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for verdict in &self.verdicts {
-            let mark = if verdict.holds { "holds" } else { "FAILS" };
+            let mark = match verdict {
+                Verdict { holds: false, .. } => "FAILS",
+                Verdict { note: true, .. } => "NOTE ",
+                _ => "holds",
+            };
             writeln!(formatter, "{mark}  {}: {}", verdict.check, verdict.subjects.join(", "))?;
             writeln!(formatter, "       {}", verdict.finding)?;
             writeln!(formatter, "       by {}", verdict.equation)?;
         }
-        let (all, failed) = (self.verdicts.len(), self.verdicts.iter().filter(|verdict| !verdict.holds).count());
-        match (all, failed) {
+        let count = |counts: fn(&Verdict) -> bool| self.verdicts.iter().filter(|verdict| counts(verdict)).count();
+        let (failed, notes) = (count(|verdict| !verdict.holds), count(|verdict| verdict.holds && verdict.note));
+        let besides = match notes {
+            0 => String::new(),
+            1 => "; 1 note".to_owned(),
+            _ => format!("; {notes} notes"),
+        };
+        match (self.verdicts.len() - notes, failed) {
+            (0, _) if notes > 0 => writeln!(formatter, "Nothing fails{besides}."),
             (0, _) => writeln!(formatter, "Nothing to judge."),
-            (1, 0) => writeln!(formatter, "The verdict holds."),
-            (_, 0) => writeln!(formatter, "All {all} verdicts hold."),
-            (_, 1) => writeln!(formatter, "1 of {all} verdicts fails."),
-            _ => writeln!(formatter, "{failed} of {all} verdicts fail."),
+            (1, 0) => writeln!(formatter, "The verdict holds{besides}."),
+            (all, 0) => writeln!(formatter, "All {all} verdicts hold{besides}."),
+            (all, 1) => writeln!(formatter, "1 of {all} verdicts fails{besides}."),
+            (all, _) => writeln!(formatter, "{failed} of {all} verdicts fail{besides}."),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A scenario file: gains, potentials, zones, directions of attraction, room.
 
 use crate::controller::chain_damping;
+use crate::limits::{Largest, of_scenario};
 use crate::potential::potential;
 use crate::verdict::number;
 use crate::zones::zones;
@@ -87,10 +88,14 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
 
 fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
     let radii = *task.zoning.radii();
-    let body = body_radius(task).unwrap_or(0.0);
+    let body = body_radius(task);
     let mut verdicts = vec![
         potential(subject, &task.law.trench, RANGE),
-        zones(subject, [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar], body),
+        zones(
+            subject,
+            [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar],
+            body.unwrap_or(0.0),
+        ),
         chain_damping(subject, task.law.damping, task.law.leader_damping),
     ];
     verdicts.extend(task.options.limits.map(|limits| actuators(subject, task, &limits)));
@@ -112,27 +117,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
     let trench = check_admissibility(&task.law.trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
-    let largest = [trench, task.zoning.full_acceleration(), obstacles];
-    let (holds, sum) = (limits.fits(largest), number(largest.iter().sum()));
-    let able = number(limits.acceleration);
-    let [trench, zones, obstacles] = largest.map(number);
-    let finding = if holds {
-        format!(
-            "trench {trench}, zones {zones}, obstacles {obstacles}: {sum} m/s^2 at most, robots have {able}; V' <= 0 within limits"
-        )
-    } else {
-        format!(
-            "trench {trench}, zones {zones}, obstacles {obstacles}: up to {sum} m/s^2, but robots have {able}: lower the trench or \
-             full_acceleration until they fit"
-        )
-    };
-    Verdict::new(
-        "limits",
-        subject,
-        holds,
-        finding,
-        "largest Phi' + Psi' + Psi_ob' <= acceleration (9.2, chapter 7 of docs/theory)",
-    )
+    of_scenario(subject, &Largest { trench, zones: task.zoning.full_acceleration(), obstacles }, limits)
 }
 
 /// Radius of the robots' bodies, where the scenario says one.
@@ -140,16 +125,19 @@ fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
     task.options.safety.map(|safety| safety.radius).or(task.encroaching.robot_radius())
 }
 
-/// Whether a robot passes all gaps that are left between hulls.
-fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: f64) -> Verdict {
-    let holds = task.clearance >= 2.0 * body;
-    let (clearance, width) = (number(task.clearance), number(2.0 * body));
+/// Whether a robot passes all gaps that are left between hulls. Where no body is named, one that is as wide as zone 1 lets it be.
+fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) -> Verdict {
+    let width = body.map_or(task.zoning.radii().rho_underbar, |body| 2.0 * body);
+    let holds = task.clearance >= width;
+    let clearance = number(task.clearance);
+    let wide = match body {
+        Some(_) => format!("robots are {} m wide", number(width)),
+        None => format!("robots, whose bodies nothing names, are up to rho_underbar = {} m wide", number(width)),
+    };
     let finding = if holds {
-        format!("hulls nearer than {clearance} m are combined, and robots are {width} m wide: they pass what is left")
+        format!("hulls nearer than {clearance} m are combined, and {wide}: they pass what is left")
     } else {
-        format!(
-            "hulls {clearance} m apart are not combined, but robots are {width} m wide: make the clearance {width} m"
-        )
+        format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {} m", number(width))
     };
     Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
 }

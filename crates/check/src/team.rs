@@ -21,8 +21,10 @@ pub struct Team {
     pub feeds_forward: bool,
     /// Radii of the zones, if the law has zones.
     pub zones: Option<[f64; 5]>,
-    /// Stiffness of the trench's bottom (1/s^2) and damping (1/s), if the law has them.
+    /// Stiffness of the trench's bottom (1/s^2) and damping, that towards a resting leader included (1/s), if the law has them.
     pub chain_gains: Option<(f64, f64)>,
+    /// The law, by its name.
+    pub law: String,
 }
 
 /// Reads a team from the parameters of one formation_controller.
@@ -46,10 +48,11 @@ pub fn team(parameters: &Parameters, robots: Option<usize>) -> Result<Team, Conf
         feeds_forward: kinematic_feed || is_dynamic,
         zones,
         chain_gains: if is_chained || law == "queue" { chain_gains(parameters)? } else { None },
+        law: law.to_owned(),
     })
 }
 
-/// Phi''(0) and k; none for trenches without a curvature at their bottom.
+/// Phi''(0) and k + c; none for trenches without a curvature at their bottom.
 fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigError> {
     if parameters.str("law")? == "queue" {
         return Ok(Some((parameters.f64("queue.position_gain")?, parameters.f64("queue.velocity_gain")?)));
@@ -60,5 +63,5 @@ fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigErro
         "square_root" => 2.0,
         _ => return Ok(None),
     };
-    Ok(Some((stiffness, parameters.f64("damping")?)))
+    Ok(Some((stiffness, parameters.f64("damping")? + parameters.f64("leader_damping")?)))
 }

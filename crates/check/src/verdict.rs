@@ -9,8 +9,10 @@ pub struct Verdict {
     pub check: &'static str,
     /// Of which files, nodes or queues.
     pub subjects: Vec<String>,
-    /// Whether it holds.
+    /// Whether it holds: nothing is wrong with it.
     pub holds: bool,
+    /// Whether there is something to know though nothing is wrong: a claim of the theory does not reach as far as what was looked at.
+    pub note: bool,
     /// What was found, with its numbers; if it fails, what would be right.
     pub finding: String,
     /// The equation or section that decides.
@@ -26,7 +28,17 @@ impl Verdict {
         finding: impl Into<String>,
         equation: &'static str,
     ) -> Self {
-        Self { check, subjects: vec![subject.to_owned()], holds, finding: finding.into(), equation }
+        Self { check, subjects: vec![subject.to_owned()], holds, note: false, finding: finding.into(), equation }
+    }
+
+    /// A note about one subject.
+    pub(crate) fn noted(
+        check: &'static str,
+        subject: &str,
+        finding: impl Into<String>,
+        equation: &'static str,
+    ) -> Self {
+        Self { note: true, ..Self::new(check, subject, true, finding, equation) }
     }
 }
 

@@ -46,17 +46,17 @@ fn potentials_are_admissible_or_not() {
 
 #[test]
 fn chains_are_bounded_rank_by_rank() {
-    let of = ChainOfRobots { robots: 4, gains: (2.0, 3.0), initial_error: 0.02, tolerance: 0.06 };
+    let of = ChainOfRobots { instead_of: None, robots: 4, gains: (2.0, 3.0), initial_error: 0.02, tolerance: 0.06 };
     check(
         &chain("line", &of),
         true,
-        "K = (2, 3), errors of 0.02 at the start: rank 4 stays within 0.06 (0.03932; by (8.26) 6453); by rank 0.02034, \
+        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 4 stays within 0.06 (0.03932; by (8.26) 6453); by rank 0.02034, \
          0.02963, 0.0354, 0.03932",
     );
     check(
         &chain("line", &ChainOfRobots { robots: 10, tolerance: 0.05, ..of }),
         false,
-        "K = (2, 3), errors of 0.02 at the start: rank 10 may leave 0.05 (0.06464; by (8.26) 9e13): at most 7 robots in one \
+        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 10 may leave 0.05 (0.06464; by (8.26) 9e13): at most 7 robots in one \
          chain stay within; by rank 0.02034, 0.02963, 0.0354, 0.03932, 0.04236, 0.04559, 0.04958, 0.05416, ...",
     );
     check(
@@ -64,6 +64,50 @@ fn chains_are_bounded_rank_by_rank() {
         false,
         "K = (2, -3): robot 1 of the chain: the closed loop A - B K is not Hurwitz: its error does not decay (Theorem 8.2.1 needs a gain \
          K that makes it so)",
+    );
+}
+
+/// As many ranks are computed as there are robots, up to 100; of more nothing is promised, and that is said.
+#[test]
+fn long_chains_are_computed_to_their_end() {
+    let of = |robots, tolerance| ChainOfRobots {
+        instead_of: None,
+        robots,
+        gains: (2.0, 3.0),
+        initial_error: 0.02,
+        tolerance,
+    };
+    for robots in [13, 30] {
+        let verdict = chain("line", &of(robots, 1.0));
+        assert!(verdict.holds && verdict.finding.contains(&format!("rank {robots} stays within 1 (")), "{verdict:?}");
+    }
+    let some = chain("line", &of(30, 0.06));
+    assert!(!some.holds && some.finding.contains("at most 9 robots in one chain stay within"), "{some:?}");
+    let many = chain("line", &of(101, 1e9));
+    assert!(
+        !many.holds && many.finding.contains("ranks beyond 100 are not computed, and not promised anything"),
+        "{many:?}"
+    );
+}
+
+/// config/profiles/chain.yaml on its columns: k = 2 and c = 0.5 are 2.5.
+#[test]
+fn what_the_bound_is_not_about_is_said() {
+    check(
+        &chain(
+            "line",
+            &ChainOfRobots {
+                instead_of: Some("chain"),
+                robots: 4,
+                gains: (2.5, 2.5),
+                initial_error: 0.05,
+                tolerance: 0.14,
+            },
+        ),
+        true,
+        "the linear queue law (8.11) with K = (2.5, 2.5) and errors of 0.05 at the start: rank 4 stays within 0.14 (0.1073; by (8.26) \
+         7530); by rank 0.05253, 0.07935, 0.09611, 0.1073; law chain has these gains at the bottom of its trench, but is not this law: zones, \
+         limits, obstacles are not in the bound",
     );
 }
 
@@ -116,6 +160,7 @@ fn chains_on_segments() {
         feeds_forward: true,
         zones: Some([0.20, 0.26, 0.34, 0.45, 1.2]),
         chain_gains: Some((1.0, 2.0)),
+        law: "chain".to_owned(),
     };
     let judged = |text: &str, team: &Team| formation("f", &trench_plan::parse("f.yaml", text).unwrap(), team);
     let one = |verdicts: &[Verdict], name: &str| verdicts.iter().find(|verdict| verdict.check == name).unwrap().clone();

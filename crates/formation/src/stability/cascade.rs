@@ -17,9 +17,9 @@ use super::product::product;
 use nalgebra::{DMatrix, DVector};
 
 /// Step of the sampling in units of 1/|N|: the bound is too large by about this share.
-const STEP: f64 = 0.01;
+pub(super) const STEP: f64 = 0.01;
 /// Ends a chain that decays too slowly to be followed; the recursion (8.26), valid from any moment on, then takes over.
-const MOST_STEPS: usize = 200_000;
+pub(super) const MOST_STEPS: usize = 200_000;
 
 /// For each robot of `chain`, what its error never exceeds when the chain starts with errors of the norms `initial_errors`
 /// (0 for robots beyond its end).

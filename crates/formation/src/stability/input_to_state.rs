@@ -160,7 +160,10 @@ mod tests {
         assert!((found[0].overshoot - 2.618_034).abs() < 1e-6 && found[0].gain == 0.0);
         let mu = spectral_norm(&close(&chain, Coupling::Printed).unwrap()[0].coupling);
         assert!((mu - 3.702_459_17).abs() < 1e-8);
-        assert!((found[1].gain - 50.7541).abs() < 1e-4, "{}", found[1].gain);
+        // With Q = I, P has the eigenvalues 3/4 -+ sqrt(5/16), and mu^2 = 7 + sqrt(45).
+        let (low, high, mu) = (0.75 - 0.3125_f64.sqrt(), 0.75 + 0.3125_f64.sqrt(), (7.0 + 45.0_f64.sqrt()).sqrt());
+        let exact = 2.0 * high * high.sqrt() * mu / (0.5 * low.sqrt());
+        assert!((found[1].gain - exact).abs() < 1e-10 && (exact / 50.7541 - 1.0).abs() < 1e-6, "{}", found[1].gain);
         assert!((found[1].decay - 0.25 / (0.75 + 0.3125_f64.sqrt())).abs() < 1e-12);
         let bounds = recursive_bounds(&found, &[0.1, 0.2, 0.0]);
         let (first, gain) = (found[0].overshoot, found[1].gain);

@@ -12,6 +12,7 @@ mod mismatch;
 mod product;
 mod special;
 mod stable_zone;
+mod uniform;
 mod violation;
 
 pub use balance::{Balance, Balanced, Input, Moment, Supply};
@@ -26,4 +27,5 @@ pub use lyapunov_equation::{LyapunovError, solve_lyapunov};
 pub use mismatch::final_misalignment;
 pub use special::{entire_cosine_integral, sine_integral};
 pub use stable_zone::{C1, C2, LAMBDA_STAR, StableZone};
+pub use uniform::uniform_bounds;
 pub use violation::Violation;
