@@ -7,23 +7,29 @@ mod threads;
 use chain::chain_of_7_10;
 use nalgebra::Vector2;
 use threads::Threads;
+use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{Curve, CurveShape};
+use trench_formation::hull::{Obstacle, Shape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::Capability;
 use trench_formation::safety::Stopping;
-use trench_formation::simulate::{ChainScenario, ChainSimulation, Options};
+use trench_formation::simulate::{ChainScenario, ChainSimulation, Encroaching, Options, Remedies};
 use trench_formation::trench::Hyperbolic;
+use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness};
 
-/// 7.10's law and discs for 300 robots in two rows beside a long segment.
+/// Shares have 128 robots at least: these are worth five.
+const ROBOTS: u32 = 650;
+
+/// 7.10's law and discs for many robots in two rows beside a long segment.
 fn many() -> ChainScenario<Hyperbolic> {
-    let line = CurveShape::Line(Vector2::new(0.0, 0.0), Vector2::new(1400.0, 0.0));
+    let line = CurveShape::Line(Vector2::new(0.0, 0.0), Vector2::new(3000.0, 0.0));
     let place =
-        |rank: u32| Vector2::new(1390.0 - 4.5 * f64::from(rank), if rank.is_multiple_of(2) { 5.0 } else { -3.0 });
+        |rank: u32| Vector2::new(2990.0 - 4.5 * f64::from(rank), if rank.is_multiple_of(2) { 5.0 } else { -3.0 });
     let capability = Capability { speed: 3.0, acceleration: 40.0 };
     ChainScenario {
         segment: Curve::new(&line, false, false).unwrap(),
-        team_goal: Some(Vector2::new(1400.0, 0.0)),
-        robots: (0..300).map(|rank| PointState::at_rest(place(rank))).collect(),
+        team_goal: Some(Vector2::new(3000.0, 0.0)),
+        robots: (0..ROBOTS).map(|rank| PointState::at_rest(place(rank))).collect(),
         options: Options {
             limits: Some(capability),
             safety: Some(Stopping { radius: 0.3, capability }),
@@ -37,7 +43,7 @@ fn many() -> ChainScenario<Hyperbolic> {
 
 fn end(simulation: ChainSimulation<Hyperbolic>) -> Vec<PointState> {
     let mut simulation = simulation;
-    (0..600).for_each(|_| simulation.step().unwrap());
+    (0..400).for_each(|_| simulation.step().unwrap());
     simulation.robots().to_vec()
 }
 
@@ -46,8 +52,38 @@ fn one_thread_or_several() {
     let run = |threads| end(ChainSimulation::new(many()).unwrap().with(Threads(threads)));
     let alone = run(1);
     assert_eq!(alone, run(2));
+    // Each of the five has 130.
     assert_eq!(alone, run(5));
     assert!(alone.iter().all(|robot| robot.position.y.abs() < 3.0), "they are on their way to the segment");
+}
+
+/// The same where obstacles rest before some robots and move across the way of others, and robots that are caught have remedies.
+fn among_obstacles(remedies: bool) -> ChainScenario<Hyperbolic> {
+    let mut scenario = many();
+    // Before every fortieth robot of the upper row a wall that is too wide to slide off; every other one moves along with the segment.
+    let middles = (0..8).map(|index| Vector2::new(2990.0 - 4.5 * f64::from(80 * index + 20), 2.2));
+    let wall = |(id, middle): (u32, Vector2<f64>)| {
+        let half = Vector2::new(4.0, 0.0);
+        Obstacle { id, shape: Shape::new(&[middle - half, middle + half], 0.1).unwrap() }
+    };
+    scenario.obstacles = (0..).zip(middles).map(wall).collect();
+    let velocity = |index: u32| Vector2::new(if index.is_multiple_of(2) { 0.0 } else { 0.4 }, 0.0);
+    scenario.options.obstacle_velocities = (0..8).map(velocity).collect();
+    scenario.options.sidesteps = true;
+    scenario.potential = ObstaclePotential::new(0.3, 1.0, 2.0, Sharpness::Two, Edge::Continuous, 30.0).unwrap();
+    scenario.encroaching = Encroaching::Obstacles;
+    let watch = WatchSettings { radius: 0.3, patience: 0.5, arrived: 0.1 };
+    scenario.remedies = remedies.then_some(Remedies { watch, rising: 1.0 });
+    scenario
+}
+
+#[test]
+fn one_thread_or_several_with_remedies_and_moving_obstacles() {
+    let run = |remedies, threads| end(ChainSimulation::new(among_obstacles(remedies)).unwrap().with(Threads(threads)));
+    let alone = run(true, 1);
+    assert_eq!(alone, run(true, 2));
+    assert_eq!(alone, run(true, 5));
+    assert_ne!(alone, run(false, 5), "somebody was caught");
 }
 
 /// A winding segment, robots of which most have nothing but their leader near: these are steered several at once.

@@ -1,5 +1,9 @@
 //! Chapter 6: the simulation of 6.5 and the energy argument of A.12.
 #![expect(clippy::unwrap_used, reason = "a test may fail by a panic in a function of its own")]
+#![expect(clippy::print_stdout, reason = "the figures are of interest")]
+mod edges;
+
+use edges::{Edges, counted};
 use proptest::prelude::*;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
@@ -26,8 +30,12 @@ const DIAGONAL: Vector2<f64> = Vector2::new(std::f64::consts::FRAC_1_SQRT_2, std
 const ACROSS: Vector2<f64> = Vector2::new(-std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2);
 
 fn table_6_2() -> Zoning {
+    with_edges(Edge::Jump)
+}
+
+fn with_edges(edge: Edge) -> Zoning {
     let radii = Radii::new(1.0, 4.0, 10.0, 13.0, 30.0).unwrap();
-    Zoning::new(radii, (10.0, 10.0), Sharpness::Two, Edge::Jump, 1e4).unwrap()
+    Zoning::new(radii, (10.0, 10.0), Sharpness::Two, edge, 1e4).unwrap()
 }
 
 fn table_6_3() -> Zoning {
@@ -39,6 +47,8 @@ struct Run {
     robots: Vec<PointState>,
     closest: f64,
     last_outside_neutral: f64,
+    /// Jumps of the force and reversals at the edges of zones 2 and 4 of leaders.
+    edges: [(u32, u32); 2],
 }
 
 impl Run {
@@ -66,8 +76,15 @@ fn simulate_with(law: ZonedAttraction<Hyperbolic>, method: Integration) -> Run {
     };
     let mut chain = ZonedChain::new(scenario, method, 0.01);
     let (mut closest, mut last_outside_neutral) = (f64::INFINITY, 0.0);
+    let mut seen = [[Edges::default(); 9]; 2];
     for _ in 0..30_000 {
         chain.step();
+        for (index, pair) in chain.robots().windows(2).enumerate() {
+            let distance = (pair[0].position - pair[1].position).norm();
+            for (seen, edge) in seen.iter_mut().zip([zoning.radii().rho_hat, zoning.radii().rho]) {
+                seen[index].see((distance, zoning.force(distance)), edge, 5.0 / 27.0);
+            }
+        }
         for (index, robot) in chain.robots().iter().enumerate() {
             for other in &chain.robots()[..index] {
                 closest = closest.min((robot.position - other.position).norm());
@@ -78,7 +95,7 @@ fn simulate_with(law: ZonedAttraction<Hyperbolic>, method: Integration) -> Run {
             last_outside_neutral = chain.time();
         }
     }
-    Run { robots: chain.robots().to_vec(), closest, last_outside_neutral }
+    Run { robots: chain.robots().to_vec(), closest, last_outside_neutral, edges: seen.map(|seen| counted(&seen)) }
 }
 
 #[test]
@@ -122,6 +139,20 @@ fn modified_radii_of_table_6_3() {
     );
     assert!(run.closest > 1.5);
     assert!(run.robots.iter().all(|robot| robot.position.dot(&ACROSS).abs() < 1e-6));
+}
+
+/// With the printed edge the force of a zone jumps (by 10/27) each time that a robot enters or leaves one; with a continuous one never. Nobody
+/// bounces at the edges in 6.5, with either: k = 2 takes a robot across, or lets it coast in.
+#[test]
+fn continuous_edges_end_the_jumps() {
+    let edges = |edge| simulate(with_edges(edge), 2.0, Integration::SemiImplicitEuler).edges;
+    let (jump, continuous) = (edges(Edge::Jump), edges(Edge::Continuous));
+    println!(
+        "figure: jumps and reversals at rho_hat and rho: {jump:?} with the printed edge, {continuous:?} with a continuous one"
+    );
+    assert!(jump[0].0 > 0 && jump[1].0 >= 9, "each follower comes to its place from zone 4: {jump:?}");
+    assert_eq!(continuous.map(|(jumps, _)| jumps), [0, 0]);
+    assert!(continuous.iter().zip(&jump).all(|(new, old)| new.1 <= old.1 && new.1 <= 9), "{continuous:?}");
 }
 
 /// k = 1 whips the chain against its zoning walls; damping relative to the leader cures it.

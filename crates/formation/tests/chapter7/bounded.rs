@@ -56,5 +56,6 @@ fn the_chain_of_7_10_within_limits() {
     assert!(run.closest > 1.0, "{}", run.closest);
     assert!(run.nearest_obstacles.iter().all(|distance| *distance > 2.0), "{:?}", run.nearest_obstacles);
     assert!(run.robots.iter().all(|robot| robot.velocity.norm() <= CAPABILITY.speed + 1e-9));
-    assert!(run.on_segment(0.1), "{:?}", run.robots);
+    // Continuous edges: the attraction fades out at rho, to which followers come from outside.
+    assert!(run.on_segment(0.1) && run.is_neutral(0.2), "{:?}", run.robots);
 }
