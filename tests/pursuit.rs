@@ -7,18 +7,9 @@
 mod support;
 
 use std::time::SystemTime;
-use support::{Finished, drive, root, starts};
+use support::{Finished, drive, pursued, root, starts};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
-
-/// m: what counts as formed.
-const FORMED: f64 = 0.05;
-
-/// s: how soon after the start, and after the field, the formation has to stand.
-const PATIENCE: f64 = 15.0;
-
-/// s: when the target (`depart` 20 s) has reached the end of its way through trap, gaps and moving obstacles.
-const FIELD_ENDS: f64 = 124.3;
 
 /// As many of the twenty starts as `TRENCH_SEEDS` says, others every day.
 fn seeds() -> Vec<u64> {
@@ -49,20 +40,19 @@ fn a_column_follows_its_target_over_an_empty_field() {
 
 #[test]
 fn eight_robots_pursue_their_target_through_traps_and_gaps() {
-    for seed in seeds() {
-        let (poses, seed) = (starts(seed), seed.to_string());
-        let finished = drive("pursuit.launch.yaml", &[("poses", &poses), ("seed", &seed)]);
-        let conformed = finished.conformity.finish();
-        let what = format!("seed {seed}, poses {poses}");
-        let [start, field] = [0.0, FIELD_ENDS].map(|since| conformed.formed_after(since, FORMED));
-        let after = |time: Option<f64>| time.map_or("never".to_owned(), |time| format!("{time:.1} s"));
-        println!("seed {seed}: formed {} after the start, {} after the field", after(start), after(field));
-        stands_without_contact(&finished, &what);
-        for (time, disturbance) in [(start, "start"), (field, "field")] {
-            assert!(time.is_some_and(|time| time <= PATIENCE), "{what}: {} after the {disturbance}", after(time));
-        }
-        assert!(conformed.at_the_end() <= FORMED, "{what}: {} m from its segment at the end", conformed.at_the_end());
-    }
+    // All starts are tried, whatever comes of one.
+    let failed: Vec<u64> =
+        seeds().into_iter().filter(|seed| std::panic::catch_unwind(|| pursue(*seed)).is_err()).collect();
+    assert!(failed.is_empty(), "seeds {failed:?}");
+}
+
+fn pursue(seed: u64) {
+    let (poses, number) = (starts(seed), seed.to_string());
+    let finished = drive("pursuit.launch.yaml", &[("poses", &poses), ("seed", &number)]);
+    let what = format!("seed {seed}, poses {poses}");
+    print!("seed {seed}: ");
+    stands_without_contact(&finished, &what);
+    pursued::judge(&finished.conformity.finish(), &what);
 }
 
 #[test]

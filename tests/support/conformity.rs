@@ -1,8 +1,11 @@
 //! How far robots are from their segments (5.2.1), by ground truth: in lock-step and from bags alike.
 
+use super::hindrance::{Field, Hindrance};
+use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 use trench_core::RosTime;
-use trench_formation::curve::Curve;
+use trench_formation::Vector2;
+use trench_formation::curve::{Curve, Placed};
 use trench_msgs::Message;
 use trench_msgs::msg::{Assignment, Formation, Goals, RunState};
 use trench_msgs::nav_msgs::Odometry;
@@ -21,19 +24,28 @@ pub(crate) struct Conformity {
     /// Of each formation, from when on.
     segments: BTreeMap<i64, Vec<Curve>>,
     t0: Option<i64>,
+    field: Field,
 }
 
-/// One robot's distance from its segment over the run: time since t0 (s), distance (m).
-type Distances = Vec<(f64, f64)>;
+/// One robot at one time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sample {
+    /// Since t0, s.
+    time: f64,
+    /// m.
+    place: Vector2<f64>,
+    /// From its segment, m.
+    distance: f64,
+}
 
 /// What came out.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Conformed {
-    pub(crate) robots: BTreeMap<String, Distances>,
-    /// Where each robot is at the end, m.
-    pub(crate) places: BTreeMap<String, [f64; 2]>,
+    /// Each robot's way, as long as it has a segment.
+    pub(crate) robots: BTreeMap<String, Vec<Sample>>,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
+    pub(crate) hindrance: Hindrance,
 }
 
 impl Conformity {
@@ -53,6 +65,7 @@ impl Conformity {
                 let assignment = Assignment::decode(cdr).unwrap();
                 self.assignments.insert(nanoseconds(&assignment.header.stamp), assignment);
             }
+            "/obstacles" => self.field.take(cdr),
             "/run_state" => {
                 let run = RunState::decode(cdr).unwrap();
                 let t0 = nanoseconds(&run.t0);
@@ -76,15 +89,16 @@ impl Conformity {
         let t0 = self.t0.unwrap();
         let mut conformed = Conformed::default();
         for (robot, track) in &self.truth {
-            let distance = |(stamp, position): (&i64, &[f64; 2])| {
-                let distance = self.distance(robot, *stamp, *position)?;
-                Some(((stamp - t0) as f64 * 1e-9, distance))
+            let hindrance = &mut conformed.hindrance;
+            let sample = |(stamp, position): (&i64, &[f64; 2])| {
+                let (time, way) = ((stamp - t0) as f64 * 1e-9, self.way(robot, *stamp, *position)?);
+                self.field.look(hindrance, (robot, *stamp, time), way);
+                Some(Sample { time, place: way[0], distance: (way[1] - way[0]).norm() })
             };
-            conformed.places.insert(robot.clone(), *track.last_key_value().unwrap().1);
-            let distances: Distances = track.range(t0..).filter_map(distance).collect();
+            let way: Vec<Sample> = track.range(t0..).filter_map(sample).collect();
             // A robot that never had a place has none.
-            if !distances.is_empty() {
-                conformed.robots.insert(robot.clone(), distances);
+            if !way.is_empty() {
+                conformed.robots.insert(robot.clone(), way);
             }
         }
         let (_, last) = self.assignments.last_key_value().unwrap();
@@ -93,60 +107,68 @@ impl Conformity {
         conformed
     }
 
-    /// From the segment of the robot's queue as assigned and placed at that time, m; nothing where nobody says it.
-    fn distance(&self, robot: &str, stamp: i64, position: [f64; 2]) -> Option<f64> {
+    /// From a robot straight to the segment of its queue, as assigned and placed at that time, m; nothing where nobody says it.
+    fn way(&self, robot: &str, stamp: i64, position: [f64; 2]) -> Option<[Vector2<f64>; 2]> {
         let (_, assignment) = self.assignments.range(..=stamp).next_back()?;
         let queue = assignment.members.iter().find(|member| member.robot == robot)?.queue;
         let [x, y, theta] = *self.frames.get(&stamp)?;
-        let (dx, dy) = (position[0] - x, position[1] - y);
-        let (sin, cos) = libm::sincos(theta);
-        let in_frame = trench_formation::Vector2::new(cos * dx + sin * dy, cos * dy - sin * dx);
+        let frame = Isometry2::new(Vector2::new(x, y), theta);
+        let position = Vector2::from(position);
         let (_, segments) = self.segments.range(..=stamp).next_back()?;
-        Some(segments.get(queue as usize)?.nearest(in_frame).distance)
+        let foot = Placed::new(segments.get(queue as usize)?, frame).nearest(position);
+        Some([position, foot.point])
     }
 }
 
 impl Conformed {
-    /// The largest distance from its segment that any robot has at the end, m.
+    /// Where each robot is last before `time`, s.
+    fn at(&self, time: f64) -> BTreeMap<&str, Sample> {
+        let last = |way: &[Sample]| way[way.partition_point(|sample| sample.time < time) - 1];
+        self.robots.iter().map(|(robot, way)| (robot.as_str(), last(way))).collect()
+    }
+
+    /// The largest distance from its segment that any robot has at the end, m; infinity if one has been left out before.
     pub(crate) fn at_the_end(&self) -> f64 {
-        self.robots.values().map(|distances| distances.last().unwrap().1).fold(0.0, f64::max)
+        let last = self.at(f64::INFINITY);
+        let end = last.values().map(|sample| sample.time).fold(0.0, f64::max);
+        let distance = |sample: &Sample| if sample.time > end - 0.5 { sample.distance } else { f64::INFINITY };
+        last.values().map(distance).fold(0.0, f64::max)
     }
 
-    /// The largest distance between the places of a robot at the end of both runs, m.
-    pub(crate) fn apart(&self, other: &Self) -> f64 {
-        let apart = |(robot, [x, y]): (&String, &[f64; 2])| {
-            let [other_x, other_y] = other.places[robot];
-            libm::hypot(x - other_x, y - other_y)
-        };
-        self.places.iter().map(apart).fold(0.0, f64::max)
+    /// The largest distance between the places of a robot in both runs at `time` (s), or at the end before it, m.
+    pub(crate) fn apart(&self, other: &Self, time: f64) -> f64 {
+        let (ours, theirs) = (self.at(time), other.at(time));
+        ours.iter().map(|(robot, sample)| (sample.place - theirs[robot].place).norm()).fold(0.0, f64::max)
     }
 
-    /// When each robot came within `bound` of its segment for good, s: infinity for one that is not there at the end.
-    pub(crate) fn conforming_from(&self, bound: f64) -> BTreeMap<&str, f64> {
-        let from = |distances: &Distances| match distances.iter().rposition(|(_, distance)| *distance > bound) {
-            None => 0.0,
-            Some(last) => distances.get(last + 1).map_or(f64::INFINITY, |(time, _)| *time),
-        };
-        self.robots.iter().map(|(robot, distances)| (robot.as_str(), from(distances))).collect()
+    /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:
+    /// infinity if it did not.
+    fn conforming([since, until]: [f64; 2], bound: f64, way: &[Sample]) -> f64 {
+        let [from, to] = [since, until].map(|time| way.partition_point(|sample| sample.time < time));
+        let piece = &way[from..to];
+        let formed = piece.iter().rposition(|sample| sample.distance > bound).map_or(0, |away| away + 1);
+        piece.get(formed).map_or(f64::INFINITY, |sample| sample.time - since)
     }
 
-    /// The median over the robots of the time from which they conform, s.
-    pub(crate) fn median_time(&self, bound: f64) -> f64 {
-        let mut times: Vec<f64> = self.conforming_from(bound).into_values().collect();
+    /// How long it took all robots from `since` until they were within `bound` of their segments and stayed there until `until`,
+    /// s: infinity if they did not.
+    pub(crate) fn formed_after(&self, time: [f64; 2], bound: f64) -> f64 {
+        self.robots.values().map(|way| Self::conforming(time, bound, way)).fold(0.0, f64::max)
+    }
+
+    /// The median over the robots of the same, s.
+    pub(crate) fn median_time(&self, time: [f64; 2], bound: f64) -> f64 {
+        let mut times: Vec<f64> = self.robots.values().map(|way| Self::conforming(time, bound, way)).collect();
         times.sort_by(f64::total_cmp);
         let upper = times.len() / 2;
         if times.len().is_multiple_of(2) { 0.5 * (times[upper - 1] + times[upper]) } else { times[upper] }
     }
 
-    /// From `since` on, how long it took until all robots were within `bound` of their segments, s.
-    pub(crate) fn formed_after(&self, since: f64, bound: f64) -> Option<f64> {
-        let times = self.robots.values().next()?.iter().map(|(time, _)| *time).filter(|time| *time >= since);
-        let within = |time: f64| {
-            let at =
-                |distances: &Distances| distances.get(distances.partition_point(|(other, _)| *other < time)).copied();
-            self.robots.values().all(|distances| at(distances).is_some_and(|(_, distance)| distance <= bound))
-        };
-        times.into_iter().find(|time| within(*time)).map(|time| time - since)
+    /// Distances from each robot to the one ahead of it in its queue at the end, m.
+    pub(crate) fn spacings(&self) -> Vec<f64> {
+        let behind = self.assignment.windows(2).filter(|pair| pair[0].1 == pair[1].1);
+        let last = self.at(f64::INFINITY);
+        behind.map(|pair| (last[pair[0].0.as_str()].place - last[pair[1].0.as_str()].place).norm()).collect()
     }
 }
 

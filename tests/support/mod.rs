@@ -1,6 +1,8 @@
 //! What the experiments share: starts, lock-step runs, verdicts.
 
 pub(crate) mod conformity;
+mod hindrance;
+pub(crate) mod pursued;
 
 use conformity::Conformity;
 use std::collections::BTreeMap;

@@ -4,6 +4,7 @@
 //! twist breaks the rule or the straight way to the goal is blocked; then it heads for the way round and limits the
 //! speed by the rule. A robot is a disc about its axle's centre, so turning on the spot is always safe.
 mod detour;
+mod evade;
 mod limit;
 mod parameters;
 mod scene;
@@ -71,14 +72,20 @@ impl SafetyFilter {
         if !(place_known && wish_known && scene.is_finite()) {
             return Filtered { twist: Twist::ZERO, acted: Some(Constraint::NotFinite), side: None };
         }
+        let pace = self.pace(wish);
+        if let Some(evasion) = evade::evasion(&self.parameters, scene, pose.position(), pace) {
+            let wanted = self.give_way(pose, pace.max(2.0 * evasion.speed), evasion.direction);
+            let (twist, decisive) = limit::limit(&self.parameters, scene, pose, now, wanted);
+            return Filtered { twist, acted: decisive.or(Some(evasion.threat)), side: None };
+        }
         let detour = wish.goal.and_then(|goal| {
-            let (centre, pace) = (pose.position(), self.pace(wish));
+            let centre = pose.position();
             detour::View { scene, parameters: &self.parameters, centre, goal, kept: wish.kept, pace }
                 .with_goal_uncovered()
                 .detour()
         });
         let (wanted, blocker, side) = match detour {
-            Some(detour) => (self.steer(pose, wish, detour.direction), Some(detour.blocker), Some(detour.side)),
+            Some(detour) => (self.steer(pose, pace, detour.direction), Some(detour.blocker), Some(detour.side)),
             None => (wish.twist, None, None),
         };
         let (twist, decisive) = limit::limit(&self.parameters, scene, pose, now, wanted);
@@ -91,9 +98,19 @@ impl SafetyFilter {
     }
 
     /// Twist that turns the robot towards `direction`, at speed only once it faces there.
-    fn steer(&self, pose: Pose, wish: Wish, direction: Vector2<f64>) -> Twist {
+    fn steer(&self, pose: Pose, pace: f64, direction: Vector2<f64>) -> Twist {
         let error = wrap(libm::atan2(direction.y, direction.x) - pose.theta);
         let facing = libm::cos(error).max(0.0);
-        Twist { v: self.pace(wish) * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
+        Twist { v: pace * facing * facing * facing, omega: (TURN_GAIN * error).clamp(-MOST_TURN, MOST_TURN) }
+    }
+
+    /// The same forwards or backwards, whichever needs the smaller turn.
+    fn give_way(&self, pose: Pose, pace: f64, direction: Vector2<f64>) -> Twist {
+        let (sine, cosine) = libm::sincos(pose.theta);
+        if direction.dot(&Vector2::new(cosine, sine)) >= 0.0 {
+            return self.steer(pose, pace, direction);
+        }
+        let forwards = self.steer(pose, pace, -direction);
+        Twist { v: -forwards.v, ..forwards }
     }
 }
