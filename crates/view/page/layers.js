@@ -27,8 +27,8 @@ const QUIET = ["velocities", ...["zones", "forces", "fragments", "sectors"].map(
 const arrow = (y, colour) => `<path d="M1 ${y}h${20 - y}" stroke="${colour}" stroke-width="1.6"/>`;
 const TERMS = arrow(1, "#1a73cc") + arrow(4, "#1a994d") + arrow(7, "#d9801a") + arrow(10, "#cc3326") + arrow(13, "#666");
 const FOREIGN = {
-  "controller/forces": ["Forces by term: segment, leader, robots, obstacles, damping", TERMS],
-  "controller/sectors": ["Repulsive areas (Fig. 7.9)"],
+  "controller/forces": ["Forces by term", TERMS],
+  "controller/sectors": ["Repulsive areas"],
 };
 const stored = localStorage.getItem("trench.hidden");
 const hidden = new Set(stored ? JSON.parse(stored) : QUIET);

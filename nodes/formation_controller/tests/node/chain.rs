@@ -197,6 +197,34 @@ fn every_tick_has_one_leader_state() {
     assert_eq!(stamps, exposures);
 }
 
+/// robot2, of another queue, comes from ahead on the left. Who says that it obeys its commands is left half of the gap; who does not obey, or says
+/// nothing, may use up all of it, and robot1 brakes harder.
+#[test]
+fn what_robots_of_other_queues_say_counts() {
+    let brakes_to = |limited_by: Option<u8>| {
+        let mut bench = Bench::new();
+        bench.goal.x = 2.6;
+        let member = |robot: &str, queue| Member { robot: robot.to_owned(), rank: 1, queue, ..Default::default() };
+        let members = vec![member("robot1", 0), member("robot2", 1)];
+        bench.send("/assignment", &Assignment { epoch: 4, formation_hash: 7, members, ..Default::default() });
+        bench.drive(40);
+        assert!(bench.twist.v > 0.2, "{:?}", bench.twist);
+        let (x, y, theta) = (bench.pose.x + 0.33, 0.9 + 0.33, -2.36);
+        let status = RobotState::STATUS_TRACKED;
+        bench.others =
+            vec![RobotState { name: "robot2".to_owned(), status, x, y, theta, v: 0.35, ..Default::default() }];
+        if let Some(limited_by) = limited_by {
+            let state = LeaderState { queue: 1, goal_distance: 0.5, limited_by, ..leader_at(&bench, x, 4) };
+            bench.send("/robot2/leader_state", &state);
+        }
+        bench.drive(1);
+        bench.twist.v
+    };
+    let (obeys, deviates, silent) = (brakes_to(Some(0)), brakes_to(Some(LeaderState::LIMIT_DEVIATES)), brakes_to(None));
+    assert!(obeys > deviates + 0.01, "{obeys} {deviates}");
+    assert_eq!(silent, deviates);
+}
+
 /// Both hear it, and the robot rests until one of them ends; whoever hears two for another robot says so.
 #[test]
 fn two_controllers_of_one_robot_are_reported() {
