@@ -3,14 +3,13 @@
 //! One file a day; `TRENCH_LIVE_LAUNCH` names another (scripts/acceptance takes all).
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "support/conformity.rs"]
-#[expect(dead_code, reason = "the pursuit uses the rest")]
-mod conformity;
 mod live_support;
+#[expect(dead_code, reason = "the experiments use the rest")]
+mod support;
 
-use conformity::Conformity;
 use live_support::{Launch, domain};
 use std::time::SystemTime;
+use support::conformity::Conformity;
 use trench_bag::run::Run;
 
 const FILES: [&str; 4] = ["chain", "nearest_chain", "corridor", "sinusoid"];

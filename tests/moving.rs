@@ -2,12 +2,11 @@
 //! robot itself.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "support/conformity.rs"]
-#[expect(dead_code, reason = "the pursuit uses the rest")]
-mod conformity;
+#[expect(dead_code, reason = "the experiments use the rest")]
+mod support;
 
-use conformity::Conformity;
 use std::path::Path;
+use support::conformity::Conformity;
 use trench_bag::run::RunBuilder;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
@@ -182,8 +181,8 @@ fn column(arguments: &[(&str, &str)], somebody: Box<dyn NodeCore>) -> Watch {
 /// The farthest that any robot that has a place is from its segment between two times since t0, m.
 fn farthest(conformity: &Conformity, from: f64, to: f64) -> f64 {
     let robots = conformity.finish().robots;
-    let during = robots.values().flatten().filter(|(time, _)| (from..to).contains(time));
-    let farthest = during.map(|(_, distance)| *distance).fold(f64::NAN, f64::max);
+    let during = robots.values().flatten().filter(|sample| (from..to).contains(&sample.time));
+    let farthest = during.map(|sample| sample.distance).fold(f64::NAN, f64::max);
     assert!(farthest.is_finite(), "nobody had a place from {from} s to {to} s");
     farthest
 }

@@ -31,11 +31,11 @@ pub(crate) struct Conformity {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample {
     /// Since t0, s.
-    time: f64,
+    pub(crate) time: f64,
     /// m.
     place: Vector2<f64>,
     /// From its segment, m.
-    distance: f64,
+    pub(crate) distance: f64,
 }
 
 /// What came out.
@@ -43,6 +43,8 @@ pub(crate) struct Sample {
 pub(crate) struct Conformed {
     /// Each robot's way, as long as it has a segment.
     pub(crate) robots: BTreeMap<String, Vec<Sample>>,
+    /// Where each robot is at the end, m, with a segment or without.
+    pub(crate) places: BTreeMap<String, [f64; 2]>,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
     pub(crate) hindrance: Hindrance,
@@ -95,6 +97,7 @@ impl Conformity {
                 self.field.look(hindrance, (robot, *stamp, time), way);
                 Some(Sample { time, place: way[0], distance: (way[1] - way[0]).norm() })
             };
+            conformed.places.insert(robot.clone(), *track.last_key_value().unwrap().1);
             let way: Vec<Sample> = track.range(t0..).filter_map(sample).collect();
             // A robot that never had a place has none.
             if !way.is_empty() {
