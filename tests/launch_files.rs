@@ -98,9 +98,8 @@ fn every_launch_file_holds_before_the_theory() {
         let judged = |process: &Value| {
             ["formation_controller", "leader_assignment"].contains(&process["argv"][0].as_str().unwrap())
         };
-        let expected = if given.iter().any(judged) { &["hold.", "holds."][..] } else { &["judge."] };
-        let last = said.split_whitespace().last().unwrap();
-        assert!(expected.contains(&last), "{name} {arguments:?}: {said}");
+        let expected = given.iter().any(judged);
+        assert_ne!(said.contains("Nothing to judge."), expected, "{name} {arguments:?}: {said}");
     }
 }
 
