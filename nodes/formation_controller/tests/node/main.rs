@@ -3,6 +3,7 @@
 
 mod bench;
 mod chain;
+mod deviation;
 mod laws;
 mod markers;
 mod remedies;
