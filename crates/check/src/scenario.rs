@@ -7,7 +7,7 @@ use crate::verdict::number;
 use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
 use trench_formation::curve::{Curve, Placed};
-use trench_formation::hull::{Outline, combine};
+use trench_formation::hull::Outline;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
 use trench_formation::simulate::ChainScenario;
@@ -104,7 +104,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
     }
     let whole = (0.0, task.segment.length());
     let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
-    if let Ok(hulls) = combine(&task.obstacles, task.clearance) {
+    if let Ok(hulls) = task.combined(&task.obstacles) {
         let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
         verdicts.push(room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat));

@@ -3,6 +3,7 @@
 //! A file names one of the simulations of the thesis by its `kind`, and everything it needs in SI units: robots, segment,
 //! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
 
+mod closest;
 mod law;
 mod measures;
 mod read;

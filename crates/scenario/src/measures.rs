@@ -1,5 +1,6 @@
 //! How a run went, looked at after every step.
 
+use crate::closest::Closest;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
 use serde::Serialize;
 use trench_formation::Vector2;
@@ -78,7 +79,8 @@ pub struct Measures {
     seats: Vec<Seat>,
     last_away: Vec<f64>,
     leader_range: Vec<[f64; 2]>,
-    closest: Vec<f64>,
+    /// By case.
+    closest: Vec<Closest>,
     /// By case: id of each obstacle and the least gap from it, m.
     gaps: Vec<Vec<(u32, f64)>>,
     last_outside: Vec<f64>,
@@ -96,7 +98,7 @@ impl Measures {
             seats,
             last_away: vec![-1.0; count],
             leader_range: vec![[f64::INFINITY, 0.0]; count],
-            closest: vec![f64::INFINITY; cases],
+            closest: vec![Closest::default(); cases],
             gaps: vec![Vec::new(); cases],
             last_outside: vec![-1.0; cases],
             in_zone_1: vec![0.0; cases],
@@ -111,15 +113,6 @@ impl Measures {
             if sample.deviation.is_nan() || sample.deviation > scenario.tolerance {
                 self.last_away[index] = time;
             }
-            // Robots of a case stand together, by rank.
-            let mates = samples[index + 1 - seat.rank..index].iter();
-            for mate in mates {
-                let distance = (mate.position - sample.position).norm();
-                self.closest[seat.case] = self.closest[seat.case].min(distance);
-                if scenario.zoning().is_some_and(|zoning| zoning.zone(distance) == Zone::Forbidden) {
-                    self.in_zone_1[seat.case] += scenario.timing.step;
-                }
-            }
             if let Some(leader) = seat.leader {
                 let distance = (samples[leader].position - sample.position).norm();
                 let [least, greatest] = self.leader_range[index];
@@ -128,6 +121,14 @@ impl Measures {
                     self.last_outside[seat.case] = time;
                 }
             }
+        }
+        // Robots of a case stand together.
+        let mut first = 0;
+        for team in self.seats.chunk_by(|seat, next| seat.case == next.case) {
+            let (case, rest) = (team[0].case, first + team.len());
+            let in_zone_1 = &mut self.in_zone_1[case];
+            self.closest[case].take(&samples[first..rest], scenario.zoning(), || *in_zone_1 += scenario.timing.step);
+            first = rest;
         }
         if let Some(real) = simulation.obstacles() {
             for gaps in &mut self.gaps {
@@ -185,7 +186,7 @@ impl Measures {
         CaseSummary {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
-            closest_pair: (robots.len() > 1).then_some(self.closest[case]),
+            closest_pair: (robots.len() > 1).then_some(self.closest[case].least()),
             obstacles: self.gaps[case].iter().map(|&(id, least_gap)| ObstacleSummary { id, least_gap }).collect(),
             neutral_after: if has_leaders { since(self.last_outside[case]) } else { None },
             in_zone_1: self.in_zone_1[case],

@@ -7,7 +7,9 @@ use trench_formation::compared::{AnyGuide, Trip};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::Steered;
-use trench_formation::simulate::{ChainSimulation, GoalTeam, Regulation, ScenarioError, WaveGoals, ZonedChain};
+use trench_formation::simulate::{
+    ChainSimulation, GoalTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
+};
 use trench_formation::trench::AnyTrench;
 
 /// Why a run cannot go on.
@@ -109,6 +111,16 @@ impl Simulation {
         let names: Vec<String> = scenario.seats().into_iter().map(|seat| seat.name).collect();
         let headings = vec![0.0; names.len()];
         Ok(Self { running, names, headings, step: timing.step, steps: 0 })
+    }
+
+    /// Lets others do the work of the robots of a chain of chapter 7, see [`ChainSimulation::with`]. The motion is the same, bit for bit.
+    #[must_use]
+    pub fn with(self, workers: impl Workers + Send + Sync + 'static) -> Self {
+        let running = match self.running {
+            Running::Nearest(chain, trips) => Running::Nearest(Box::new(chain.with(workers)), trips),
+            other => other,
+        };
+        Self { running, ..self }
     }
 
     /// Advances by one step.

@@ -96,6 +96,13 @@ fn obstacles() {
     check("7.11.yaml", euler, &format!("{euler}\nsafety: {{body_radius: 0.1}}"), &["safety", "give limits"]);
     check("7.11.yaml", euler, &format!("{euler}\nsight: {{range: 0.0, piece: 0.5}}"), &["sight.range", "not positive"]);
     let sight = "sight: {range: 4.0, piece: 0.5}";
+    check(
+        "9.1_bent_corridor.yaml",
+        euler,
+        &format!("{euler}\n{sight}"),
+        &["sight", "pieces of a wall", "take `apart`"],
+    );
+    check("7.14.yaml", "radius: 1.0, velocity", "radius: 1.0, apart: true, velocity", &["apart", "pieces of walls"]);
     check("7.14.yaml", euler, &format!("{euler}\n{sight}"), &["sight", "obstacles that move", "take the velocities"]);
     check(
         "7.11.yaml",

@@ -16,9 +16,12 @@ fn scenario(name: &str) -> Scenario {
 
 /// Runs a scenario and gives the samples at the times asked for besides.
 fn run_with(name: &str, times: &[f64]) -> (Summary, Vec<Vec<Sample>>) {
-    let scenario = scenario(name);
-    let mut simulation = Simulation::new(&scenario).unwrap();
-    let mut measures = Measures::new(&scenario);
+    run_scenario(&scenario(name), times)
+}
+
+fn run_scenario(scenario: &Scenario, times: &[f64]) -> (Summary, Vec<Vec<Sample>>) {
+    let mut simulation = Simulation::new(scenario).unwrap();
+    let mut measures = Measures::new(scenario);
     let (mut samples, mut kept) = (Vec::new(), Vec::new());
     let steps = (scenario.timing.duration / scenario.timing.step).round() as u64;
     for step in 0..=steps {
@@ -26,12 +29,12 @@ fn run_with(name: &str, times: &[f64]) -> (Summary, Vec<Vec<Sample>>) {
             simulation.step().unwrap();
         }
         simulation.sample(false, &mut samples).unwrap();
-        measures.take(&scenario, &simulation, &samples);
+        measures.take(scenario, &simulation, &samples);
         if times.iter().any(|time| (simulation.time() - time).abs() < 0.5 * scenario.timing.step) {
             kept.push(samples.clone());
         }
     }
-    (measures.summary(&scenario), kept)
+    (measures.summary(scenario), kept)
 }
 
 fn run(name: &str) -> CaseSummary {
@@ -167,6 +170,29 @@ fn corridor_of_9_1() {
     assert!(case.conforms_after.is_some(), "{case:?}");
     assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.5), "{case:?}");
     assert!(case.robots.iter().all(|robot| robot.position[0] > 30.0) && case.in_zone_1 == 0.0, "{case:?}");
+}
+
+/// Fig. 9.1 round a bend: through, and without the option that keeps the pieces of its walls apart not at all.
+#[test]
+fn bent_corridor_of_9_1() {
+    let text = fs::read_to_string(folder().join("9.1_bent_corridor.yaml")).unwrap();
+    let times: Vec<f64> = (0..240).map(|half| 0.5 * f64::from(half)).collect();
+    let (mut summary, kept) = run_scenario(&parse("bent", &text).unwrap(), &times);
+    let case = summary.cases.remove(0);
+    assert!(case.conforms_after.is_some(), "{case:?}");
+    assert!(case.obstacles.len() == 6 && case.obstacles.iter().all(|wall| wall.least_gap > 0.3), "{case:?}");
+    assert!(case.robots.iter().all(|robot| robot.position[1] > 20.0) && case.in_zone_1 == 0.0, "{case:?}");
+    // Inside, round the bend.
+    let inside =
+        |sample: &Sample| (26.0..32.0).contains(&sample.position.x) && (2.0..10.0).contains(&sample.position.y);
+    for robot in 0..3 {
+        assert!(kept.iter().any(|samples| inside(&samples[robot])), "r{} went round", robot + 1);
+    }
+    assert_eq!(text.matches(", apart: true").count(), 2);
+    let closed = parse("closed", &text.replace(", apart: true", "")).unwrap();
+    let (mut summary, _) = run_scenario(&closed, &[]);
+    let case = summary.cases.remove(0);
+    assert!(case.robots.iter().all(|robot| robot.position[1] < 10.0), "nobody passes a closed corridor: {case:?}");
 }
 
 /// Fig. 7.14: what two obstacles are combined to, once one has come near, holds the robot; it gets out and to the segment (7.7).

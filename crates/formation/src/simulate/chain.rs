@@ -6,7 +6,7 @@ use super::workers::{Alone, Share, Workers};
 use super::{ChainScenario, Encroaching, Outcome, ScenarioError};
 use crate::Vector2;
 use crate::agent::Agent;
-use crate::hull::{ApparentObstacle, Obstacle, combine};
+use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
 use crate::trench::Trench;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
     /// See [`ScenarioError`].
     pub fn new(scenario: ChainScenario<T>) -> Result<Self, ScenarioError> {
         scenario.check()?;
-        let obstacles = combine(&scenario.obstacles, scenario.clearance)?;
+        let obstacles = scenario.combined(&scenario.obstacles)?;
         for (index, robot) in scenario.robots.iter().enumerate() {
             let inside = |obstacle: &&Obstacle| obstacle.shape.outline().approach(robot.position).gap < 0.0;
             if let Some(obstacle) = scenario.obstacles.iter().find(inside) {
@@ -146,7 +146,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         if moves {
             let time = self.time();
             self.real = self.scenario.obstacles_at(time)?;
-            self.obstacles = combine(&self.real, self.scenario.clearance)?;
+            self.obstacles = self.scenario.combined(&self.real)?;
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         let found = self.look_round()?;
@@ -167,7 +167,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         let found = knowledge.look(&self.seen)?;
         if found || self.steps == 0 {
             self.real = knowledge.known().to_vec();
-            self.obstacles = combine(&self.real, self.scenario.clearance)?;
+            self.obstacles = self.scenario.combined(&self.real)?;
             self.velocities = self.scenario.velocities_of(&self.obstacles);
         }
         Ok(found)

@@ -27,6 +27,7 @@ pub use chain::ChainSimulation;
 pub use goal_team::{GoalTeam, WaveGoals};
 pub use integrate::Integration;
 pub use judge::{Standard, Verdict, judge};
+pub use neighbours::Neighbours;
 pub use observe::Outcome;
 pub use random::{BODY_RADIUS, CAPABILITY, random_team};
 pub use regulation::Regulation;

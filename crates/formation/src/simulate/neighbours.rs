@@ -9,7 +9,7 @@ const SKIN: f64 = 0.5;
 
 /// For each robot all others within a range. They are sought anew once a robot has moved so far that one may be missing.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Neighbours {
+pub struct Neighbours {
     grid: Grid,
     range: f64,
     /// Where the robots were when the lists were made.
@@ -26,7 +26,7 @@ pub(super) struct Neighbours {
 impl Neighbours {
     /// Makes sure that the lists hold whoever is within `range` (m) of each other now. `obstacles` rest, and are the
     /// same as before unless all was forgotten.
-    pub(super) fn update(&mut self, range: f64, robots: &[PointState], obstacles: &[ApparentObstacle]) {
+    pub fn update(&mut self, range: f64, robots: &[PointState], obstacles: &[ApparentObstacle]) {
         // Two robots come nearer to each other by twice as much, and a position that is not a number never keeps.
         self.keeps = 0.499 * SKIN * range;
         let keeps = self.keeps;
@@ -71,7 +71,7 @@ impl Neighbours {
 
     /// The others that may be within range of a robot, ascending.
     #[inline]
-    pub(super) fn of(&self, index: usize) -> &[u32] {
+    pub fn of(&self, index: usize) -> &[u32] {
         let begin = index.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.others[begin as usize..self.ends[index] as usize]
     }

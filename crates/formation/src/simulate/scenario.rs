@@ -1,9 +1,9 @@
 //! What is simulated.
-use super::{Carriage, Integration, Sight};
+use super::{Carriage, Integration, Neighbours, Sight};
 use crate::Vector2;
 use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
 use crate::curve::Curve;
-use crate::hull::{ApparentObstacle, HullError, Obstacle};
+use crate::hull::{ApparentObstacle, HullError, Obstacle, combine_unless};
 use crate::kinematics::PointState;
 use crate::laws::{Capability, NearestAttraction};
 use crate::safety::Stopping;
@@ -57,6 +57,9 @@ pub struct Options {
     pub sidesteps: bool,
     /// Velocities of the obstacles in order, m/s; those missing rest.
     pub obstacle_velocities: Vec<Vector2<f64>>,
+    /// The walls that obstacles in order are pieces of: pieces of one are not combined for adjoining (9.2, Fig. 9.1). Those missing
+    /// are of none.
+    pub walls: Vec<Option<u32>>,
     /// Whether the law ends in the safety filter. Without it nothing but the law keeps robots apart, as in the thesis.
     pub safety: Option<Stopping>,
     /// How far the team sees the boundaries of obstacles, which rest; without it all are known (Remark 7.4.1).
@@ -90,6 +93,9 @@ pub enum ScenarioError {
     /// A method of integration that does not suit the chain.
     #[error("{0:?} does not suit {1}: take another method")]
     Integration(Integration, &'static str),
+    /// Boundaries that are seen in pieces of their own, of walls in pieces.
+    #[error("pieces of a wall cannot be seen piece by piece: let them be combined, or have all boundaries known")]
+    SightOfWalls,
     /// Boundaries that are seen piece by piece while their obstacle moves.
     #[error("obstacles that move cannot be seen piece by piece: let them rest, or have all boundaries known")]
     SightOfMoving,
@@ -120,6 +126,16 @@ impl<T: Clone> ChainScenario<T> {
 }
 
 impl<T> ChainScenario<T> {
+    /// What obstacles that are among those of the scenario, wherever they are by now, are combined to (7.8).
+    ///
+    /// # Errors
+    /// See [`combine`](crate::hull::combine).
+    pub fn combined(&self, obstacles: &[Obstacle]) -> Result<Vec<ApparentObstacle>, HullError> {
+        let pieces = || self.obstacles.iter().zip(&self.options.walls);
+        let wall = |id: u32| pieces().find(|(piece, _)| piece.id == id).and_then(|(_, wall)| *wall);
+        combine_unless(obstacles, self.clearance, |a, b| wall(a).is_some_and(|of| wall(b) == Some(of)))
+    }
+
     /// Whether any obstacle moves.
     pub(super) fn moves(&self) -> bool {
         self.options.obstacle_velocities.iter().any(|velocity| *velocity != Vector2::zeros())
@@ -183,14 +199,19 @@ impl<T> ChainScenario<T> {
         if self.options.sight.is_some() && self.moves() {
             return Err(ScenarioError::SightOfMoving);
         }
+        if self.options.sight.is_some() && self.options.walls.iter().any(Option::is_some) {
+            return Err(ScenarioError::SightOfWalls);
+        }
+        if let Some(index) = self.robots.iter().position(|robot| !finite(robot.position + robot.velocity)) {
+            return Err(ScenarioError::RobotNotFinite(index + 1));
+        }
+        let (near, mut neighbours) = (self.zoning.radii().rho_underbar, Neighbours::default());
+        neighbours.update(near, &self.robots, &[]);
         for (index, robot) in self.robots.iter().enumerate() {
-            if !finite(robot.position + robot.velocity) {
-                return Err(ScenarioError::RobotNotFinite(index + 1));
-            }
-            for (other_index, other) in self.robots[..index].iter().enumerate() {
-                let distance = (robot.position - other.position).norm();
-                if distance <= self.zoning.radii().rho_underbar {
-                    return Err(ScenarioError::StartInZoneOne(other_index + 1, index + 1, distance));
+            for &other in neighbours.of(index).iter().take_while(|other| (**other as usize) < index) {
+                let distance = (robot.position - self.robots[other as usize].position).norm();
+                if distance <= near {
+                    return Err(ScenarioError::StartInZoneOne(other as usize + 1, index + 1, distance));
                 }
             }
         }

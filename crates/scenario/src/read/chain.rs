@@ -7,7 +7,7 @@ use trench_config::yaml::{Map, Node};
 use trench_formation::Vector2;
 use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{CurveShape, Placed};
-use trench_formation::hull::{Obstacle, Outline, Shape, combine};
+use trench_formation::hull::{Obstacle, Outline, Shape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, NearestAttraction, ZonedAttraction};
 use trench_formation::safety::Stopping;
@@ -71,10 +71,7 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
 pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigError> {
     let (shape, curve) = trench_plan::segment(map.node("segment")?)?;
     let robots = some(map, "robots")?;
-    let listed: Vec<(Obstacle, Vector2<f64>)> =
-        map.opt_list("obstacles")?.iter().map(obstacles).collect::<Result<Vec<_>, _>>()?.concat();
-    let listed = listed.into_iter().zip(1..).map(|((obstacle, velocity), id)| (Obstacle { id, ..obstacle }, velocity));
-    let (obstacles, velocities): (Vec<Obstacle>, Vec<Vector2<f64>>) = listed.unzip();
+    let listed = listed(map.opt_list("obstacles")?)?;
     let limits = map.opt_map("limits")?.map(|map| limits(&map)).transpose()?;
     let scenario = ChainScenario {
         segment: curve,
@@ -83,7 +80,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         robots: robots.iter().map(state).collect::<Result<_, _>>()?,
         law: law(map)?,
         zoning: zoning(map)?,
-        obstacles,
+        obstacles: listed.obstacles,
         clearance: not_negative(map, "clearance", 0.0)?,
         potential: potential(map)?,
         seeking: seeking(map)?,
@@ -93,7 +90,8 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
             limits,
             safety: safety(map, limits)?,
             sidesteps: map.get_or("sidesteps", false)?,
-            obstacle_velocities: velocities,
+            obstacle_velocities: listed.velocities,
+            walls: listed.walls,
             sight: map.opt_map("sight")?.map(|map| sight(&map)).transpose()?,
             integration: timing.integration,
             ..Options::default()
@@ -114,6 +112,7 @@ fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>
                 robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
             }
             ScenarioError::Integration(..) => map.error("method", text, "write semi_implicit_euler"),
+            ScenarioError::SightOfWalls => map.error("sight", text, "take `apart` or the sight away"),
             ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
             ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
@@ -122,7 +121,8 @@ fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>
     }
     let whole = (0.0, scenario.segment.length());
     let placed = Placed::new(&scenario.segment, scenario.carriage.at(0.0).0);
-    let combined = combine(&scenario.obstacles, scenario.clearance)
+    let combined = scenario
+        .combined(&scenario.obstacles)
         .map_err(|error| map.error("obstacles", error.to_string(), "mend the obstacles or the clearance"))?;
     let outlines: Vec<Outline<'_>> = combined.iter().map(|obstacle| obstacle.shape.outline()).collect();
     let fragments = Fragments::find(&placed, whole, &outlines, scenario.potential.cut(), scenario.seeking.room);
@@ -157,26 +157,50 @@ fn carriage(map: &Map<'_>) -> Result<Carriage, ConfigError> {
     Ok(carriage)
 }
 
+/// The obstacles of a file, by id from 1 on, with their velocities (m/s) and the walls that they are pieces of.
+#[derive(Default)]
+struct Listed {
+    obstacles: Vec<Obstacle>,
+    velocities: Vec<Vector2<f64>>,
+    walls: Vec<Option<u32>>,
+}
+
+fn listed(nodes: &[Node]) -> Result<Listed, ConfigError> {
+    let mut listed = Listed::default();
+    for (node, wall) in nodes.iter().zip(0..) {
+        let map = node.map()?;
+        let velocity = point_or_zero(&map, "velocity")?;
+        let apart = map.get_or("apart", false)?;
+        if apart && map.opt_node("walls").is_none() {
+            return Err(map.error("apart", "is for the pieces of walls", "take it away, or give walls"));
+        }
+        for shape in shapes(node, &map)? {
+            let id = listed.obstacles.len() as u32 + 1;
+            listed.obstacles.push(Obstacle { id, shape });
+            listed.velocities.push(velocity);
+            listed.walls.push(apart.then_some(wall));
+        }
+        map.finish()?;
+    }
+    Ok(listed)
+}
+
 /// A disc, a convex polygon, or walls: the pieces of an open chain of corners, which make concave obstacles.
-fn obstacles(node: &Node) -> Result<Vec<(Obstacle, Vector2<f64>)>, ConfigError> {
-    let map = node.map()?;
-    let velocity = point_or_zero(&map, "velocity")?;
+fn shapes(node: &Node, map: &Map<'_>) -> Result<Vec<Shape>, ConfigError> {
     let shape = |points: &[Vector2<f64>], radius: f64| {
-        let shape = Shape::new(points, radius).map_err(|error| node.error(error.to_string(), "mend the obstacle"))?;
-        Ok::<_, ConfigError>((Obstacle { id: 0, shape }, velocity))
+        Shape::new(points, radius).map_err(|error| node.error(error.to_string(), "mend the obstacle"))
     };
     let found = if let Some(centre) = map.opt_node("disc") {
-        vec![shape(&[point(centre)?], positive(&map, "radius")?)?]
+        vec![shape(&[point(centre)?], positive(map, "radius")?)?]
     } else if let Some(corners) = map.opt_node("walls") {
-        let (corners, radius) = (points(corners)?, not_negative(&map, "radius", 0.0)?);
+        let (corners, radius) = (points(corners)?, not_negative(map, "radius", 0.0)?);
         if corners.len() < 2 {
             return Err(map.error("walls", "has no two corners", "give two or more"));
         }
         corners.windows(2).map(|pair| shape(pair, radius)).collect::<Result<_, _>>()?
     } else {
-        vec![shape(&points(map.node("polygon")?)?, not_negative(&map, "radius", 0.0)?)?]
+        vec![shape(&points(map.node("polygon")?)?, not_negative(map, "radius", 0.0)?)?]
     };
-    map.finish()?;
     Ok(found)
 }
 

@@ -44,6 +44,11 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
         return Err(map.error("window", "is empty", "write [left, right, bottom, top]"));
     }
     if matches!(scenario.task, Task::Launch(_)) {
+        let drawn = [Drawing::Trajectories, Drawing::Errors, Drawing::Snapshots, Drawing::Speeds];
+        if !drawn.contains(&figure.drawing) {
+            let remedy = "write trajectories, errors, snapshots or speeds";
+            return Err(map.error("draws", "is no picture of a launch file's run", remedy));
+        }
         return Ok(figure);
     }
     let ranks: Vec<String> = scenario.seats().iter().map(|seat| format!("r{}", seat.rank)).collect();

@@ -9,7 +9,7 @@ use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use trench_formation::Vector2;
-use trench_formation::hull::{Obstacle, Outline, combine};
+use trench_formation::hull::{Obstacle, Outline};
 use trench_scenario::{Scenario, Task};
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
@@ -166,7 +166,7 @@ impl Field {
         for obstacle in &obstacles {
             outline(&obstacle.shape.outline(), 0.0, false)?;
         }
-        for apparent in combine(&obstacles, chain.clearance).map_err(text)? {
+        for apparent in chain.combined(&obstacles).map_err(text)? {
             outline(&apparent.shape.outline(), chain.potential.cut(), true)?;
             if apparent.members.len() > 1 {
                 outline(&apparent.shape.outline(), 0.0, true)?;
