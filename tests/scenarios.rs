@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helper functions too")]
 
+use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output};
 use trench_bag::BagReader;
@@ -55,4 +56,79 @@ fn mistakes_are_told_with_their_line() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(told.contains("wrong.yaml:4: step = -1.0: is not positive; write a number above 0"), "{told}");
+}
+
+/// 300 robots in three rows, for a few steps.
+fn crowd() -> String {
+    let settings = "name: crowd\nkind: nearest_points\nduration: 0.4\nstep: 0.02\nmethod: semi_implicit_euler\n\
+        segment: {kind: line, points: [[0.0, 0.0], [400.0, 0.0]]}\ntrench: {kind: hyperbolic, alpha: 0.5, a: 0.5}\n\
+        damping: 2.0\nzoning: {rho_underbar: 0.4, rho_hat: 1.0, rho: 3.0, rho_check: 6.0, rho_bar: 10.0, alpha: 0.2, \
+        beta: 0.05, m: 1}\nobstacle_potential: {pole: 0.2, cut: 0.5, strength: 0.1, m: 1}\nrobots:\n";
+    let robot = |rank: u32| {
+        let (column, row) = (rank / 3, f64::from(rank % 3));
+        format!("- {{position: [{:?}, {:?}]}}\n", 390.0 - f64::from(column) - 0.1 * row, 0.7 * row - 0.5)
+    };
+    settings.to_owned() + &(0..300).map(robot).collect::<String>()
+}
+
+#[test]
+fn any_number_of_threads_makes_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("crowd.yaml");
+    std::fs::write(&file, crowd()).unwrap();
+    let simulated = |threads: &str| {
+        let own = folder.path().join(threads);
+        std::fs::create_dir(&own).unwrap();
+        let (csv, bag) = (own.join("run.csv"), own.join("run"));
+        let paths = [&file, &csv, &bag].map(|path| path.to_str().unwrap());
+        let [file, csv, bag_text] = paths;
+        let output = trench(&["sim", file, "--threads", threads, "--quiet", "--json", "--csv", csv, "--bag", bag_text]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        (output.stdout, std::fs::read(csv).unwrap(), std::fs::read(bag.join("run_0.mcap")).unwrap())
+    };
+    let one = simulated("1");
+    let summary: serde_json::Value = serde_json::from_slice(&one.0).unwrap();
+    assert_eq!(summary["cases"][0]["robots"].as_array().unwrap().len(), 300);
+    assert!(simulated("2") == one && simulated("3") == one, "threads change what comes out");
+    assert_eq!(trench(&["sim", file.to_str().unwrap(), "--threads", "0"]).status.code(), Some(2));
+}
+
+/// What a command says on standard error where that is a terminal.
+fn on_a_terminal(arguments: &[&str]) -> String {
+    use rustix::pty;
+    let flags = pty::OpenptFlags::RDWR | pty::OpenptFlags::NOCTTY;
+    let ours = pty::openpt(flags).unwrap();
+    pty::grantpt(&ours).unwrap();
+    pty::unlockpt(&ours).unwrap();
+    let name = pty::ptsname(&ours, Vec::new()).unwrap().into_string().unwrap();
+    let theirs = std::fs::OpenOptions::new().read(true).write(true).open(name).unwrap();
+    let reader = std::thread::spawn(move || {
+        let (mut ours, mut said, mut piece) = (std::fs::File::from(ours), Vec::new(), [0; 4096]);
+        // When the last other end is closed, reading fails.
+        while let Ok(count @ 1..) = ours.read(&mut piece) {
+            said.extend_from_slice(&piece[..count]);
+        }
+        String::from_utf8(said).unwrap()
+    });
+    let root = env!("CARGO_MANIFEST_DIR");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trench"));
+    command.args(arguments).current_dir(root).stdout(std::process::Stdio::null()).stderr(theirs);
+    assert!(command.status().unwrap().success());
+    drop(command);
+    reader.join().unwrap()
+}
+
+#[test]
+fn how_far_it_is_stands_on_terminals_alone() {
+    let square = ["sim", "launch/square.launch.yaml", "render:=true", "duration:=12.0"];
+    let quiet = [&square[..], &["--quiet"]].concat();
+    let said = on_a_terminal(&square);
+    assert!(said.contains("\r\u{1b}[K") && said.contains(" s simulated\r"), "{said:?}");
+    let said = on_a_terminal(&quiet);
+    assert_eq!(said.lines().count(), 1, "{said:?}");
+    assert!(said.contains("times real time") && !said.contains('\u{1b}'), "{said:?}");
+    // Into a file goes what nodes say, and no line that is written over.
+    let output = trench(&square);
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("/operator: ") && !said.contains('\r') && !said.contains('\u{1b}'), "{said}");
 }

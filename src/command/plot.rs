@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use trench_bag::run::{CsvError, Run};
 use trench_bag::{BagError, BagReader};
-use trench_scenario::Scenario;
+use trench_scenario::{Drawing, Figure, Scenario, Task};
 
 /// Draws a run: trajectories, errors, snapshots and speeds over time.
 ///
@@ -127,9 +127,28 @@ fn draw_figures(arguments: &Arguments, scenario: &Scenario, run: &Run) -> Result
         let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '-' };
         let name: String = format!("figure-{}", figure.number).chars().map(plain).collect();
         let name = name.replace("--", "-");
-        save(arguments, &folder, (name.trim_end_matches('-'), figures::draw(figure, scenario, run)), &mut paths)?;
+        let picture = match scenario.task {
+            Task::Launch(_) => of_launch(figure, run),
+            _ => figures::draw(figure, scenario, run),
+        };
+        save(arguments, &folder, (name.trim_end_matches('-'), picture), &mut paths)?;
     }
     Ok(paths)
+}
+
+/// A figure of a run of node cores: one of the pictures that every run has, below its title.
+fn of_launch(figure: &Figure, run: &Run) -> style::Picture {
+    let (first, last) = run.span().ok_or("nobody's pose was recorded")?;
+    let span = (first.max(0.0).min(last), last);
+    let times = if figure.at.is_empty() { snapshots::telling_times(run, span, 6) } else { figure.at.clone() };
+    let picture = match figure.drawing {
+        Drawing::Trajectories => trajectories::draw(run, span, &times),
+        Drawing::Errors => errors::draw(run, span),
+        Drawing::Snapshots => snapshots::draw(run, &times),
+        Drawing::Speeds => speeds::draw(run, span),
+        _ => Err("runs of launch files have trajectories, errors, snapshots and speeds alone".to_owned()),
+    };
+    style::titled(&format!("Figure {}: {}", figure.number, figure.title), &picture?)
 }
 
 fn save(
@@ -154,10 +173,11 @@ fn save(
 fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
     if path.extension().is_some_and(|extension| extension == "yaml") {
         let Some((scenario, text)) = sim::read(path)? else { return Err(PlotError::Launch(path.to_owned())) };
-        if matches!(scenario.task, trench_scenario::Task::Launch(_)) {
-            return Err(PlotError::Launch(path.to_owned()));
+        if let Task::Launch(launch) = &scenario.task {
+            return Ok((sim::launched(path, launch)?, Some(scenario)));
         }
-        let done = sim::scenario::run(&scenario, &text, None, false)?;
+        let manner = sim::scenario::Manner { bag: None, progress: false, threads: 1 };
+        let done = sim::scenario::run(&scenario, &text, manner)?;
         return Ok((done.run, Some(scenario)));
     }
     if path.extension().is_some_and(|extension| extension == "csv") {

@@ -1,23 +1,33 @@
 //! `trench sim`: drives the node cores of a launch file in lock-step, or runs a scenario file, without processes.
 
+mod progress;
 pub(super) mod scenario;
 mod sink;
+mod threads;
 
 use super::launch::name_and_value;
 use super::say;
 use clap::Parser;
+use progress::Progress;
 use sink::Sink;
 use std::fs;
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use trench_bag::BagError;
 use trench_bag::run::{Run, SummaryOptions, summary};
-use trench_core::{Advertise, Level, Source, Times};
+use trench_core::{Advertise, Level, Qos, Source, Steady, Times};
 use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load_journalled, plan};
 use trench_journal::{Journals, Pace};
 use trench_scenario::{RunError, Scenario, Task};
+
+/// Of `--seconds`.
+const LONGEST: f64 = 600.0;
+
+/// Of `--seed`.
+const SEED: u64 = 1;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -42,10 +52,10 @@ pub(crate) struct Arguments {
     #[arg(value_name = "NAME:=VALUE", value_parser = name_and_value)]
     arguments: Vec<(String, String)>,
     /// Simulated seconds after which the run is given up.
-    #[arg(long, default_value_t = 600.0)]
+    #[arg(long, default_value_t = LONGEST)]
     seconds: f64,
     /// Seed of what must differ between runs of a node.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = SEED)]
     seed: u64,
     /// Records all messages into a bag in this folder, which must not exist.
     #[arg(long, value_name = "FOLDER")]
@@ -62,7 +72,10 @@ pub(crate) struct Arguments {
     /// Prints the summary as JSON.
     #[arg(long)]
     json: bool,
-    /// Prints warnings and errors of the nodes alone.
+    /// Threads that step the robots of a chain (kind: nearest_points); worth it from some thousand robots on. The bytes are the same.
+    #[arg(long, value_name = "N", default_value_t = NonZeroUsize::MIN)]
+    threads: NonZeroUsize,
+    /// Prints warnings and errors of the nodes alone, and not how far it is.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -98,15 +111,17 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
-    let Some((scenario, text)) = read(&arguments.file)? else { return drive(arguments) };
+    let Some((scenario, text)) = read(&arguments.file)? else { return drive(arguments, None) };
     if let Task::Launch(launch) = &scenario.task {
         let file = arguments.file.parent().unwrap_or(Path::new("")).join(&launch.file);
         // What the command line says comes later, and wins.
         let mut all = launch.arguments.clone();
         all.extend(arguments.arguments.iter().cloned());
-        return drive(&Arguments { file, arguments: all, ..arguments.clone() });
+        return drive(&Arguments { file, arguments: all, ..arguments.clone() }, Some(&text));
     }
-    let done = scenario::run(&scenario, &text, arguments.bag.as_deref(), !arguments.quiet)?;
+    let bag = arguments.bag.as_deref();
+    let manner = scenario::Manner { bag, progress: !arguments.quiet, threads: arguments.threads.get() };
+    let done = scenario::run(&scenario, &text, manner)?;
     write_csv(arguments, &done.run)?;
     scenario::tell(&done.summary, arguments.json);
     Ok(0)
@@ -127,7 +142,20 @@ fn write_csv(arguments: &Arguments, run: &Run) -> Result<(), SimError> {
     fs::write(path, run.to_csv()).map_err(|error| SimError::Io { path: path.clone(), error })
 }
 
-fn drive(arguments: &Arguments) -> Result<u8, SimError> {
+/// The run of a scenario that names a launch file, without its bag and its verdict.
+pub(in crate::command) fn launched(scenario: &Path, launch: &trench_scenario::Launch) -> Result<Run, SimError> {
+    let file = scenario.parent().unwrap_or(Path::new("")).join(&launch.file);
+    let plan = plan(&file, &launch.arguments.iter().cloned().collect())?;
+    let mut lockstep = Lockstep::new(load_journalled(&plan, &Disk, SEED, None)?.instances)?;
+    let from = lockstep.times().steady;
+    let mut watch = Watch { sink: Sink::new(None)?, quiet: true, from, progress: Progress::new(true) };
+    lockstep.run(LONGEST, &mut watch);
+    watch.progress.clear();
+    Ok(watch.sink.finish()?)
+}
+
+/// Drives a launch file; `scenario` is the text of the scenario that names it.
+fn drive(arguments: &Arguments, scenario: Option<&str>) -> Result<u8, SimError> {
     let plan = plan(&arguments.file, &arguments.arguments.iter().cloned().collect())?;
     if let Some(folder) = arguments.journal.as_ref().filter(|folder| folder.exists()) {
         return Err(SimError::JournalsExist(folder.display().to_string()));
@@ -139,9 +167,15 @@ fn drive(arguments: &Arguments) -> Result<u8, SimError> {
         eprintln!("trench sim: {label} is no node of ours and is left out");
     }
     let mut lockstep = Lockstep::new(loaded.instances)?;
-    let mut watch = Watch { sink: Sink::new(arguments.bag.as_deref())?, quiet: arguments.quiet };
     let (began, from) = (Instant::now(), lockstep.times().steady);
+    let (sink, progress) = (Sink::new(arguments.bag.as_deref())?, Progress::new(!arguments.quiet));
+    let mut watch = Watch { sink, quiet: arguments.quiet, from, progress };
+    if let Some(text) = scenario {
+        let text = trench_msgs::std_msgs::String { data: text.to_owned() };
+        watch.sink.publish(lockstep.times().ros.0, "/scenario", Qos::LATCHED, &text);
+    }
     let ending = lockstep.run(arguments.seconds, &mut watch);
+    watch.progress.clear();
     let (took, simulated) = (began.elapsed().as_secs_f64(), lockstep.times().steady.seconds_since(from));
     let run = watch.sink.finish()?;
     write_csv(arguments, &run)?;
@@ -165,15 +199,20 @@ fn drive(arguments: &Arguments) -> Result<u8, SimError> {
 struct Watch {
     sink: Sink,
     quiet: bool,
+    /// When the simulation began.
+    from: Steady,
+    progress: Progress,
 }
 
 impl Observer for Watch {
     fn published(&mut self, at: Times, topic: &str, advertise: &Advertise, source: Source, cdr: &[u8]) {
+        self.progress.at(|| format!("{:.0} s simulated", at.steady.seconds_since(self.from)));
         self.sink.take(at.ros.0, topic, (advertise.type_info, advertise.qos), source.sequence as u32, cdr);
     }
 
     fn logged(&mut self, at: Times, node: &str, level: Level, text: &str) {
         if level >= Level::Warn || (!self.quiet && level >= Level::Info) {
+            self.progress.clear();
             eprintln!("[{:9.3}] {node}: {text}", at.steady.0 as f64 * 1e-9);
         }
     }

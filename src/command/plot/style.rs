@@ -3,6 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use resvg::usvg;
 
 /// A part of a picture.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -61,6 +62,24 @@ pub(super) fn picture(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Result<(
     let in_units = format!(r#"width="{}" height="{}""#, size.0, size.1);
     let shown = format!(r#"width="{}" height="{}""#, size.0 / UNIT, size.1 / UNIT);
     Ok(svg.replacen(&in_units, &shown, 1))
+}
+
+/// Puts a title above a picture.
+pub(super) fn titled(title: &str, svg: &str) -> Picture {
+    const HEIGHT: f32 = 34.0;
+    let size = usvg::Tree::from_str(svg, &usvg::Options::default()).map_err(text)?.size();
+    let (width, height) = (size.width(), size.height() + HEIGHT);
+    let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    Ok(format!(
+        r##"<svg width="{width}" height="{height}" viewBox="0 0 {width} {height}" xmlns="http://www.w3.org/2000/svg">
+<rect width="{width}" height="{height}" fill="#FFFFFF"/>
+<text x="{}" y="22" text-anchor="middle" font-family="DejaVu Sans, Verdana, sans-serif" font-size="15" fill="#282828">{title}</text>
+<g transform="translate(0 {HEIGHT})">
+{svg}</g>
+</svg>
+"##,
+        0.5 * width
+    ))
 }
 
 /// Draws one entry a robot, from left to right, then `notes` on what else is drawn.

@@ -1,7 +1,9 @@
 //! Runs scenario files: the theory headless, without node cores.
 
 use super::SimError;
+use super::progress::Progress;
 use super::sink::Sink;
+use super::threads::Threads;
 use crate::command::say;
 use std::fmt::{self, Display};
 use std::path::Path;
@@ -17,16 +19,28 @@ pub(crate) struct Done {
     pub(crate) summary: Summary,
 }
 
+/// How to run a scenario.
+#[derive(Clone, Copy)]
+pub(crate) struct Manner<'a> {
+    /// Where its bag goes.
+    pub(crate) bag: Option<&'a Path>,
+    /// Whether to tell how far it is.
+    pub(crate) progress: bool,
+    /// How many work at it.
+    pub(crate) threads: usize,
+}
+
 /// Runs a scenario to its end; `text` is its file, which goes into the bag.
-pub(crate) fn run(scenario: &Scenario, text: &str, bag: Option<&Path>, progress: bool) -> Result<Done, SimError> {
-    let mut simulation = Simulation::new(scenario)?;
+pub(crate) fn run(scenario: &Scenario, text: &str, manner: Manner<'_>) -> Result<Done, SimError> {
+    let Manner { bag, progress, threads } = manner;
+    let mut simulation = Simulation::new(scenario)?.with(Threads(threads));
     let mut measures = Measures::new(scenario);
     let mut sink = Sink::new(bag)?;
     let publisher = messages::Publisher::new(scenario);
     publisher.begin(text, &mut sink);
     let (mut samples, timing) = (Vec::new(), scenario.timing);
     let steps = (timing.duration / timing.step).round() as u64;
-    let (began, mut shown) = (Instant::now(), 0);
+    let (began, mut line) = (Instant::now(), Progress::new(progress));
     for step in 0..=steps {
         if step > 0 {
             simulation.step()?;
@@ -37,15 +51,12 @@ pub(crate) fn run(scenario: &Scenario, text: &str, bag: Option<&Path>, progress:
         if is_recorded {
             publisher.publish(&simulation, &samples, &mut sink);
         }
-        let tenth = step * 10 / steps.max(1);
-        if progress && tenth > shown {
-            shown = tenth;
-            eprint!("\r{:.0} of {:.0} s simulated", simulation.time(), timing.duration);
-        }
+        line.at(|| format!("{:.0} of {:.0} s simulated", simulation.time(), timing.duration));
     }
     let took = began.elapsed().as_secs_f64();
+    line.clear();
     if progress {
-        eprintln!("\r{:.1} s simulated in {took:.2} s: {:.0} times real time", timing.duration, timing.duration / took);
+        eprintln!("{:.1} s simulated in {took:.2} s: {:.0} times real time", timing.duration, timing.duration / took);
     }
     Ok(Done { run: sink.finish()?, summary: measures.summary(scenario) })
 }
