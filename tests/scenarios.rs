@@ -120,7 +120,7 @@ fn on_a_terminal(arguments: &[&str]) -> String {
 
 #[test]
 fn how_far_it_is_stands_on_terminals_alone() {
-    let square = ["sim", "launch/square.launch.yaml", "render:=true", "duration:=12.0"];
+    let square = ["sim", "launch/square.launch.yaml", "render:=true", "duration:=12.0", "tolerance:=1.0"];
     let quiet = [&square[..], &["--quiet"]].concat();
     let said = on_a_terminal(&square);
     assert!(said.contains("\r\u{1b}[K") && said.contains(" s simulated\r"), "{said:?}");

@@ -102,7 +102,12 @@ fn obstacles() {
         &format!("{euler}\n{sight}"),
         &["sight", "pieces of a wall", "take `apart`"],
     );
-    check("7.14.yaml", "radius: 1.0, velocity", "radius: 1.0, apart: true, velocity", &["apart", "pieces of walls"]);
+    check(
+        "7.10_obstacles.yaml",
+        "25.0], radius: 1.0",
+        "25.0], radius: 1.0, apart: true",
+        &["apart", "pieces of walls"],
+    );
     check("7.14.yaml", euler, &format!("{euler}\n{sight}"), &["sight", "obstacles that move", "take the velocities"]);
     check(
         "7.11.yaml",
