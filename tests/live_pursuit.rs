@@ -35,7 +35,7 @@ fn conformed(bag: &BagReader) -> Conformed {
 fn pursue(domain: u32, seed: u64) {
     let (poses, number) = (starts(seed), seed.to_string());
     println!("seed {seed}, poses {poses}");
-    let arguments = [("poses", poses.as_str()), ("seed", &number), ("duration", "136.0")];
+    let arguments = [("poses", poses.as_str()), ("seed", &number)];
     let given: Vec<String> = arguments.iter().map(|(name, value)| format!("{name}:={value}")).collect();
     let given: Vec<&str> = given.iter().map(String::as_str).collect();
     let launch = Launch::new(domain);
