@@ -30,6 +30,22 @@ pub(crate) fn bags() -> Vec<Vec<u8>> {
     files(&root().join("tests/bags"), ".mcap")
 }
 
+/// The first messages of each of them, not compressed: what is changed in there is still a chunk.
+pub(crate) fn open_bags() -> Vec<Vec<u8>> {
+    let opened = |bag: Vec<u8>| {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let options = mcap::WriteOptions::new().compression(None).profile("ros2");
+        let mut writer = options.create(&mut bytes).unwrap();
+        for message in mcap::MessageStream::new(&bag).unwrap().take(200) {
+            writer.write(&message.unwrap()).unwrap();
+        }
+        writer.finish().unwrap();
+        drop(writer);
+        bytes.into_inner()
+    };
+    bags().into_iter().map(opened).collect()
+}
+
 /// Test vectors of docs/protocols/radio.md.
 pub(crate) fn radio() -> Vec<Vec<u8>> {
     let page = std::fs::read_to_string(root().join("docs/protocols/radio.md")).unwrap();

@@ -7,6 +7,7 @@
 
 mod corpus;
 mod mutate;
+mod seal;
 
 use corpus::{root, texts};
 use mutate::Mutator;
@@ -35,7 +36,12 @@ fn in_memory() -> tempfile::TempDir {
 }
 
 /// Runs `target` on what was found before, on the corpus, and on mutations of it until time is up.
-fn fuzz(name: &str, corpus: &[Vec<u8>], mut target: impl FnMut(&[u8])) {
+fn fuzz(name: &str, corpus: &[Vec<u8>], target: impl FnMut(&[u8])) {
+    fuzz_sealed(name, corpus, <[u8]>::to_vec, target);
+}
+
+/// As [`fuzz`]; every second mutation has its checksums made right by `seal`.
+fn fuzz_sealed(name: &str, corpus: &[Vec<u8>], seal: fn(&[u8]) -> Vec<u8>, mut target: impl FnMut(&[u8])) {
     let folder = root().join("target/fuzz");
     std::fs::create_dir_all(&folder).unwrap();
     let kept = folder.join(name);
@@ -54,7 +60,12 @@ fn fuzz(name: &str, corpus: &[Vec<u8>], mut target: impl FnMut(&[u8])) {
     let mut mutator = Mutator::new(setting("TRENCH_FUZZ_SEED", 1));
     let mut attempts = 0_u64;
     while Instant::now() < end {
-        attempt(&mutator.mutate(corpus));
+        let mutated = mutator.mutate(corpus);
+        if attempts % 2 == 0 {
+            attempt(&mutated)
+        } else {
+            attempt(&seal(&mutated))
+        }
         attempts += 1;
     }
     println!("{name}: {attempts} inputs");
@@ -63,10 +74,12 @@ fn fuzz(name: &str, corpus: &[Vec<u8>], mut target: impl FnMut(&[u8])) {
 #[test]
 fn fuzz_radio() {
     let key = Key::new(std::array::from_fn(|index| index as u8));
-    fuzz("radio", &corpus::radio(), |bytes| {
+    let mut packets = 0_u64;
+    fuzz_sealed("radio", &corpus::radio(), seal::radio, |bytes| {
         let mut decoder = StreamDecoder::default();
         decoder.push(bytes, |frame| {
             let (LinkFrame::Downlink { packet } | LinkFrame::Uplink { packet, .. }) = frame else { return };
+            packets += 1;
             for key in [None, Some(&key)] {
                 if let Ok(understood) = Packet::decode(packet, key) {
                     let mut again = Vec::new();
@@ -82,6 +95,7 @@ fn fuzz_radio() {
         bytes.chunks(7).for_each(|piece| decoder.push(piece, |_| pieces += 1));
         assert_eq!(whole, pieces);
     });
+    println!("radio: {packets} packets behind a checksum that was right");
 }
 
 /// What decodes is written and read as the same bytes.
@@ -166,14 +180,18 @@ fn rf_bridge_parameters() -> Vec<trench_config::ParameterDescriptor> {
 fn fuzz_mcap() {
     let folder = in_memory();
     let file = folder.path().join("fuzz.mcap");
-    fuzz("mcap", &corpus::bags(), |bytes| {
+    let corpus = [corpus::bags(), corpus::open_bags()].concat();
+    let mut messages = 0_u64;
+    fuzz_sealed("mcap", &corpus, seal::mcap, |bytes| {
         std::fs::write(&file, bytes).unwrap();
         let Ok(bag) = BagReader::open(&file) else { return };
         let mut run = RunBuilder::default();
         for message in bag.messages().flatten() {
+            messages += 1;
             let topic = &bag.topics()[message.topic];
             run.take(&topic.name, &topic.type_name, &message);
         }
         let _ = run.finish();
     });
+    println!("mcap: {messages} messages out of changed bags");
 }

@@ -2,10 +2,11 @@
 
 use crate::settings::{Settings, descriptors};
 use crate::{Conduct, Distances, Route, Step, Verdict, distances, shape_error};
+use std::collections::BTreeMap;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Event, Files, Interface, JumpWatch, Level, Local, NodeContext, NodeCore, NodeDescription, Qos, RosTime,
-    Serve, Sink, StartError, Steady, Subscribe, Times,
+    Advertise, Event, Files, Interface, JumpWatch, Latched, Level, Local, Master, NodeContext, NodeCore,
+    NodeDescription, Qos, RosTime, Serve, Sink, Source, StartError, Steady, Subscribe, Times,
 };
 use trench_msgs::Message;
 use trench_msgs::msg::{Goals, LeaderState, RunState, TeamState};
@@ -38,6 +39,10 @@ pub struct Operator {
     team: Option<TeamState>,
     goals: Option<Goals>,
     run: Option<RunState>,
+    /// What everybody says of the run, from which the one is chosen.
+    runs: Latched<RunState>,
+    /// Who writes each of the other topics.
+    masters: BTreeMap<usize, Master>,
     next_look: Steady,
     next_line: Steady,
     robots: Vec<String>,
@@ -74,6 +79,8 @@ fn build(_context: &NodeContext, parameters: &Parameters, _files: &dyn Files) ->
         team: None,
         goals: None,
         run: None,
+        runs: Latched::default(),
+        masters: BTreeMap::new(),
         next_look: Steady(0),
         next_line: Steady(0),
         robots,
@@ -114,18 +121,38 @@ fn interface(settings: &Settings) -> Interface {
 }
 
 impl Operator {
-    fn take(&mut self, port: usize, cdr: &[u8]) {
-        // A message that does not decode leaves the last good one in place: the nodes that drive report it.
+    fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) {
+        // A message that does not decode, or of a second publisher, leaves the last good one in place: the nodes that drive report it.
+        if port != RUN_STATE && self.masters.entry(port).or_default().admit(source, at.steady).is_err() {
+            return;
+        }
         match port {
             TEAM_STATE => self.team = TeamState::decode(cdr).ok().or(self.team.take()),
-            GOALS => self.goals = Goals::decode(cdr).ok().or(self.goals.take()),
-            RUN_STATE => self.run = RunState::decode(cdr).ok().or(self.run.take()),
+            GOALS => {
+                self.goals = Goals::decode(cdr).ok().or(self.goals.take());
+                if self.runs.are_several() {
+                    self.choose_run();
+                }
+            }
+            RUN_STATE => {
+                if let Ok(run) = RunState::decode(cdr) {
+                    self.runs.hear(source.gid, run);
+                    self.choose_run();
+                }
+            }
             _ => {
                 if let (Some(robot), Ok(said)) = (self.robots.get(port - ROBOTS), LeaderState::decode(cdr)) {
                     self.from_segments.insert(robot.clone(), said.segment_distance);
                 }
             }
         }
+    }
+
+    /// Of the goals' epoch, or the last one before, as controllers do it (their inputs/orders.rs).
+    fn choose_run(&mut self) {
+        let epoch = self.goals.as_ref().map_or(0, |goals| goals.epoch);
+        let chosen = self.runs.choose(|run| (epoch != 0 && run.epoch <= epoch).then_some(run.epoch));
+        self.run = chosen.map(|(_, run)| run.clone());
     }
 
     /// Tells where the target is: at its first waypoint until it sets out.
@@ -197,7 +224,7 @@ impl NodeCore for Operator {
         }
         match event {
             Event::Started => (self.next_look, self.next_target) = (at.steady, at.steady),
-            Event::Message { port, cdr, .. } => self.take(port, cdr),
+            Event::Message { port, source, cdr, .. } => self.take(at, port, source, cdr),
             Event::Response { cdr, .. } => self.answered(cdr),
             _ => {}
         }

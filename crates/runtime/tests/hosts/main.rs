@@ -13,6 +13,8 @@ mod slow;
 
 use common::{Island, Running};
 use network::{Host, World};
+use std::process::Command;
+use tempfile::TempDir;
 
 /// Two hosts and how their nodes reach each other.
 struct Pair {
@@ -22,6 +24,7 @@ struct Pair {
     west_overrides: String,
     east_overrides: String,
     rmw: &'static str,
+    folder: TempDir,
     /// What joins them, and the world that goes last.
     routers: Vec<Running>,
     /// The network of the first of them.
@@ -46,6 +49,7 @@ impl Pair {
             west_overrides: none(),
             east_overrides: none(),
             rmw,
+            folder: tempfile::tempdir().unwrap(),
             routers: Vec::new(),
             network: bridge,
             _world: world,
@@ -81,6 +85,7 @@ impl Pair {
             west_overrides,
             east_overrides,
             rmw,
+            folder: tempfile::tempdir().unwrap(),
             routers: vec![router],
             network: one,
             _world: world,
@@ -102,11 +107,28 @@ impl Pair {
     }
 
     fn at(&self, host: &Host, overrides: &str, example: &str, arguments: &str) -> Running {
-        let mut command = host.move_to(&self.island.command(example, arguments));
+        self.run_at(host, overrides, &self.island.command(example, arguments))
+    }
+
+    fn run_at(&self, host: &Host, overrides: &str, command: &Command) -> Running {
+        let mut command = host.move_to(command);
         // Hosts share no memory; the namespaces of one kernel would.
         command.env("TRENCH_SHM_PREFIX", format!("{}{}", host.name(), std::process::id()));
         command.env("RMW_IMPLEMENTATION", self.rmw).env("ZENOH_CONFIG_OVERRIDE", overrides);
         Island::run(command)
+    }
+
+    /// On the east host, with a wall clock that is so many hours ahead of everybody else's (tests/faults/wall_clock.c): of the
+    /// clocks that time namespaces offset it is none.
+    fn east_hours_ahead(&self, hours: i64, example: &str, arguments: &str) -> Running {
+        let (library, offset) = (self.folder.path().join("wall_clock.so"), self.folder.path().join("east.clock"));
+        let source = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/faults/wall_clock.c");
+        let compiled = Command::new("cc").args(["-shared", "-fPIC", "-O2", "-o"]).arg(&library).arg(source).status();
+        assert!(compiled.unwrap().success(), "{source} does not compile");
+        std::fs::write(&offset, (hours * 3_600_000_000_000).to_le_bytes()).unwrap();
+        let mut command = self.island.command(example, arguments);
+        command.env("LD_PRELOAD", library).env("WALL_CLOCK", offset);
+        self.run_at(&self.east, &self.east_overrides, &command)
     }
 
     fn west(&self, example: &str, arguments: &str) -> Running {
@@ -193,6 +215,36 @@ fn the_clock_of_the_other_host_is_ros_time(pair: &Pair) {
     east.wait_for_log(&format!("[DEBUG] [{}", &now.to_string()[..6]));
 }
 
+/// What `/robot` reports of its clock, offset and bound in s, once it knows.
+fn reported_offset(hears: &Running) -> (f64, f64) {
+    loop {
+        let report = hears.line();
+        let Some((offset, bound)) = report.split_once("offset ").and_then(|(_, rest)| rest.split_once(" known to "))
+        else {
+            continue;
+        };
+        return (offset.parse().unwrap(), bound.parse().unwrap());
+    }
+}
+
+fn a_clock_that_is_hours_off_is_measured(pair: &Pair) {
+    let _base = pair.west("talker", "--ros-args -r __node:=base -p serve_clock:=true -p rate:=2.0");
+    for hours in [1, -1] {
+        let hears = pair.west("diagnostics", "");
+        let talks = "--ros-args -r __node:=robot -p clock_reference:=/base -p rate:=2.0 --log-level debug";
+        let east = pair.east_hours_ahead(hours, "talker", talks);
+        let (offset, bound) = reported_offset(&hears);
+        let truth = 3600.0 * hours as f64;
+        println!("{hours} h: offset {offset} s, known to {bound} s");
+        assert!((offset - truth).abs() <= bound, "offset {offset} s, known to {bound} s, it is {truth} s");
+        assert!(bound < 1.0, "known to {bound} s");
+        // Its ROS time is the base's.
+        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap().as_secs();
+        east.wait_for_log(&format!("[DEBUG] [{}", &now.to_string()[..8]));
+        drop(east);
+    }
+}
+
 /// One test a network for each of these checks.
 macro_rules! on_every_network {
     ($($check:ident $number:literal)*) => {
@@ -209,4 +261,5 @@ macro_rules! on_every_network {
 on_every_network! {
     nodes_of_two_hosts_understand_each_other 40
     the_clock_of_the_other_host_is_ros_time 42
+    a_clock_that_is_hours_off_is_measured 44
 }
