@@ -67,5 +67,5 @@ pub(crate) fn run(scenario: ChainScenario<Hyperbolic>) -> Run {
         }
     }
     let (robots, deviations) = (simulation.robots().to_vec(), simulation.deviations().to_vec());
-    Run { robots, deviations, closest, nearest_obstacles, edges: seen.each_ref().map(|seen| counted(seen)) }
+    Run { robots, deviations, closest, nearest_obstacles, edges: seen.each_ref().map(counted) }
 }
