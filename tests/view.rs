@@ -5,6 +5,7 @@
 
 #[path = "support/own_memory.rs"]
 mod own_memory;
+#[expect(dead_code, reason = "the page of colours asks whether it waits its turn")]
 mod view_support;
 
 use own_memory::OwnMemory;
