@@ -82,7 +82,9 @@ fn seconds(nanoseconds: u64) -> f64 {
 
 /// Recording times (s) of what a topic said, with what it said.
 fn heard<M: Message>(bag: &BagReader, topic: &str) -> Vec<(f64, M)> {
-    let index = bag.topic(topic).unwrap_or_else(|| panic!("nobody wrote {topic}"));
+    let index = bag.topic(topic);
+    assert!(index.is_some(), "nobody wrote {topic}");
+    let index = index.unwrap();
     let all = bag.messages().map(Result::unwrap).filter(|message| message.topic == index);
     all.map(|message| (seconds(message.log_time), M::decode(&message).unwrap())).collect()
 }

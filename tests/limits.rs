@@ -76,10 +76,8 @@ impl Observer for Limits {
                     driven.beyond.push((time, before, told, state.limited_by));
                 }
             }
-            "link" => {
-                if LinkStatus::decode(cdr).unwrap().fault & LinkStatus::FAULT_MISSED_STEPS != 0 {
-                    self.missed.push((time, robot.to_owned()));
-                }
+            "link" if LinkStatus::decode(cdr).unwrap().fault & LinkStatus::FAULT_MISSED_STEPS != 0 => {
+                self.missed.push((time, robot.to_owned()));
             }
             "stability" => {
                 let said = Stability::decode(cdr).unwrap();

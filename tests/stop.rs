@@ -45,8 +45,9 @@ impl Terminal {
     fn wait_for(&self, text: &str) {
         let mut all = String::new();
         while !all.contains(text) {
-            let Ok(line) = self.said.recv_timeout(PATIENCE) else { panic!("{text:?} not in:\n{all}") };
-            all += &line;
+            let line = self.said.recv_timeout(PATIENCE);
+            assert!(line.is_ok(), "{text:?} not in:\n{all}");
+            all += &line.unwrap();
         }
     }
 

@@ -61,7 +61,7 @@ fn fuzz_sealed(name: &str, corpus: &[Vec<u8>], seal: fn(&[u8]) -> Vec<u8>, mut t
     let mut attempts = 0_u64;
     while Instant::now() < end {
         let mutated = mutator.mutate(corpus);
-        if attempts % 2 == 0 {
+        if attempts.is_multiple_of(2) {
             attempt(&mutated)
         } else {
             attempt(&seal(&mutated))

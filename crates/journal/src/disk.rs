@@ -59,10 +59,7 @@ mod tests {
         std::fs::set_permissions(&path, std::fs::Permissions::from_mode(mode)).unwrap();
         let told = Disk.read_secret("key_file", path.to_str().unwrap());
         assert_eq!(Disk.read("key_file", path.to_str().unwrap()).unwrap(), "000102");
-        told.map_err(|error| {
-            assert_eq!(error.remedy, format!("chmod 600 {}", path.display()));
-            error
-        })
+        told.inspect_err(|error| assert_eq!(error.remedy, format!("chmod 600 {}", path.display())))
     }
 
     #[test]

@@ -15,6 +15,10 @@ const HORIZON: f64 = 3.0;
 const STILL: f64 = 0.01;
 /// Directions that are tried.
 const DIRECTIONS: u32 = 24;
+/// Robots one behind the other that make room.
+const ROW: usize = 3;
+/// Most robots that are looked at for it: the bits of a set.
+const MOST_ROBOTS: usize = 64;
 
 /// Where to drive, and what comes.
 pub(super) struct Evasion {
@@ -32,6 +36,16 @@ struct Comer<'a> {
     velocity: Vector2<f64>,
 }
 
+impl Comer<'_> {
+    /// Time until it is at a robot at `centre`, s; infinite where it does not come.
+    fn arrives(&self, parameters: &SafetyParameters, centre: Vector2<f64>) -> f64 {
+        let approach = self.outline.approach(centre);
+        let closing = -approach.towards.dot(&self.velocity);
+        let gap = approach.gap - parameters.radius - parameters.margin;
+        if closing > STILL { gap.max(0.0) / closing } else { f64::INFINITY }
+    }
+}
+
 /// The way out for a robot at `centre` that can do `pace` (m/s), if anything comes at it.
 pub(super) fn evasion(
     parameters: &SafetyParameters,
@@ -39,17 +53,10 @@ pub(super) fn evasion(
     centre: Vector2<f64>,
     pace: f64,
 ) -> Option<Evasion> {
-    let keep = parameters.radius + parameters.margin;
-    let remaining = |comer: &Comer<'_>| {
-        let approach = comer.outline.approach(centre);
-        let closing = -approach.towards.dot(&comer.velocity);
-        (closing > STILL).then(|| (approach.gap - keep).max(0.0) / closing)
-    };
-    let first = comers(scene).filter_map(|comer| Some((comer, remaining(&comer)?)));
-    let (comer, time) = first.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    if time >= HORIZON {
-        return None;
-    }
+    let timed = |comer: Comer<'_>| comer.arrives(parameters, centre);
+    let own = comers(scene).map(|comer| (timed(comer), comer)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let pushed = pushed(parameters, scene).map(|comer| (timed(comer), comer)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, comer) = [own, pushed].into_iter().flatten().find(|(time, _)| *time < HORIZON)?;
     let barriers = || scene.barriers(centre, parameters, 0.0).filter(|barrier| barrier.constraint != comer.constraint);
     let later = |direction: Vector2<f64>| {
         let travel = room(barriers(), direction).min(pace * HORIZON);
@@ -80,6 +87,33 @@ fn comers<'s>(scene: &'s Scene<'_>) -> impl Iterator<Item = Comer<'s>> {
         outline: neighbour.outline(),
         velocity: neighbour.velocity,
     }))
+}
+
+/// Robots that will be reached, by what comes or by robots that will be, with the velocity of what comes.
+fn pushed<'s>(parameters: &SafetyParameters, scene: &'s Scene<'_>) -> impl Iterator<Item = Comer<'s>> {
+    let mut velocities = [None; MOST_ROBOTS];
+    let robots = || scene.neighbours.iter().enumerate().take(MOST_ROBOTS).filter(|(_, robot)| robot.cooperative);
+    for _ in 0..ROW {
+        let before = velocities;
+        for (index, robot) in robots().filter(|(index, _)| before[*index].is_none()) {
+            let from_robots = robots().filter_map(|(other, body)| Some((body, before[other]?)));
+            let from_robots = from_robots.map(|(body, velocity)| Comer {
+                constraint: Constraint::Neighbour(index),
+                outline: body.outline(),
+                velocity,
+            });
+            let reached =
+                comers(scene).chain(from_robots).find(|comer| comer.arrives(parameters, robot.position) < HORIZON);
+            velocities[index] = reached.map(|comer| comer.velocity);
+        }
+        if velocities == before {
+            break;
+        }
+    }
+    robots().filter_map(move |(index, robot)| {
+        let velocity = velocities[index]?;
+        Some(Comer { constraint: Constraint::Neighbour(index), outline: robot.outline(), velocity })
+    })
 }
 
 /// How far one can go in a direction, m.
@@ -157,7 +191,7 @@ mod tests {
     fn who_stands_in_the_way_gives_way() {
         for speed in [0.02, 0.03, 0.05, 0.1] {
             for heading in 0..12 {
-                for row in [1, 2] {
+                for row in [1, 2, 3] {
                     let pose = |index: u32| Pose {
                         x: 1.5 + 0.19 * f64::from(index),
                         y: 1.4,
@@ -168,6 +202,21 @@ mod tests {
                     assert!(disc > 0.0 && between > 0.0, "{speed} m/s, heading {heading}, {row}: {disc} {between}");
                 }
             }
+        }
+    }
+
+    /// A robot walled in by others, all at rest, with a disc that comes: they make room.
+    #[test]
+    fn who_stands_beside_one_in_the_way_makes_room() {
+        for heading in 0..12 {
+            let around = [0.0_f64, 1.0, -1.0, 2.0, -2.0].map(|angle| {
+                let (sine, cosine) = libm::sincos(angle);
+                Pose { x: 1.5 + 0.185 * cosine, y: 1.4 + 0.185 * sine, theta: angle + 0.53 * f64::from(heading) }
+            });
+            let middle = Pose { x: 1.5, y: 1.4, theta: 0.53 * f64::from(heading) };
+            let robots = [&[middle], &around[..]].concat();
+            let [disc, between] = pushed_through(robots, Vector2::new(1.1, 1.4), 0.03);
+            assert!(disc > 0.0 && between > 0.0, "heading {heading}: {disc} {between}");
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::connect::Connections;
 use super::{Node, NodeWake, Wake};
+use crate::clock::{steady_now, wall_now};
 use crate::reference::{Estimate, Exchange, Offset, Questions};
 use crate::transport::TransportError;
 use crate::transport::network::{Gid, NetworkWriter, ServiceClient, ServiceServer, TopicName};
@@ -99,9 +100,13 @@ impl ClockReference {
         Ok(was_set)
     }
 
-    /// Says on /diagnostics how far the host's clocks are apart. `own` is this host's wall clock.
-    fn report(&mut self, node: &str, stamp: RosTime, own: RosTime, now: Steady) {
-        let known = self.estimate.at(now);
+    /// Says on /diagnostics how far the host's clocks are apart.
+    fn report(&mut self, node: &str, stamp: RosTime) {
+        // Both clocks of this host at once: whoever waits for the processor in between is wrong by no more than that.
+        let (before, own, now) = (steady_now(), wall_now(), steady_now());
+        let apart = i64::try_from(now.0.saturating_sub(before.0)).unwrap_or(i64::MAX);
+        let wider = |known: Offset| Offset { bound: known.bound.saturating_add(apart), ..known };
+        let known = self.estimate.at(now).map(wider);
         let status = DiagnosticStatus {
             level: condition(known) as u8,
             name: format!("{node}: clock"),
@@ -143,8 +148,8 @@ impl Node {
     pub(super) fn ask_clock(&mut self, now: Steady) {
         let Some(reference) = &mut self.reference else { return };
         if reference.ask(now) {
-            let (stamp, own) = (self.ports.clock.now().ros, crate::clock::wall_now());
-            reference.report(&self.full_name, stamp, own, now);
+            let stamp = self.ports.clock.now().ros;
+            reference.report(&self.full_name, stamp);
         }
     }
 
@@ -157,8 +162,8 @@ impl Node {
     /// Takes the other clock's answers.
     pub(super) fn take_clock_answers(&mut self) {
         let Some(reference) = &mut self.reference else { return };
-        let heard = reference.hear(crate::clock::steady_now);
-        let known = reference.estimate.at(crate::clock::steady_now());
+        let heard = reference.hear(steady_now);
+        let known = reference.estimate.at(steady_now());
         let of = reference.of.clone();
         if let Some(known) = known {
             self.ports.clock.refer(known.offset);

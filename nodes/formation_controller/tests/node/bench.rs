@@ -121,7 +121,7 @@ impl Bench {
         self.obstacles.header.stamp = self.times().ros.into();
         let obstacles = self.obstacles.to_cdr();
         self.send_bytes("/apparent_obstacles", &obstacles);
-        let position = self.goal.clone();
+        let position = self.goal;
         let goal = Goal { robot: "robot1".to_owned(), position, remaining: 1e9, ..Default::default() };
         let ahead = Goal { robot: "robot2".to_owned(), position: Point2 { x: 1.9, y: 0.9 }, ..goal.clone() };
         let mut goals = Goals { goals: vec![goal, ahead], ..Default::default() };
