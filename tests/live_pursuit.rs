@@ -53,14 +53,12 @@ fn pursue(domain: u32, seed: u64) {
     let live = conformed(&bag);
     pursued::judge(&live, &poses);
     let lockstep = drive("pursuit.launch.yaml", &arguments).conformity.finish();
-    for time in [20.0, f64::INFINITY] {
-        let [ours, theirs] = [&live, &lockstep].map(|run| run.median_time([0.0, time], FORMED));
-        println!(
-            "until {time} s: {:.4} m apart, {ours:.1} s live, {theirs:.1} s in lock-step",
-            live.apart(&lockstep, time)
-        );
-    }
-    println!("same assignment {}", live.assignment == lockstep.assignment);
+    let whole = [0.0, f64::INFINITY];
+    let [ours, theirs] = [&live, &lockstep].map(|run| run.median_time(whole, FORMED));
+    // Most runs end as in lock-step to the millimetre. In some a robot rests elsewhere in its neutral zone.
+    let apart = live.apart(&lockstep, f64::INFINITY);
+    println!("{apart:.4} m from where they end in lock-step; median time {ours:.1} s, {theirs:.1} s in lock-step");
+    assert_eq!(live.assignment, lockstep.assignment, "who follows whom");
 }
 
 #[test]
@@ -78,8 +76,8 @@ fn live_pursuit_from_a_third_start() {
     pursue(domain(3), seed(2));
 }
 
-/// The column follows its target over an empty field, where nothing decides between two ways: the runs can be compared.
-/// In the pursuit who gives way to whom hangs on milliseconds, in lock-step too, and robots end a place apart.
+/// The column follows its target over an empty field, where nothing decides between two ways: the runs can be compared to the
+/// end. In the pursuit it hangs on milliseconds, in lock-step too, where in its neutral zone a robot comes to rest.
 #[test]
 fn live_column_is_that_of_lockstep() {
     let launch = Launch::new(domain(1));
