@@ -17,7 +17,7 @@ const STILL: f64 = 0.01;
 const DIRECTIONS: u32 = 24;
 /// Robots one behind the other that make room.
 const ROW: usize = 3;
-/// Most robots that are looked at for it: the bits of a set.
+/// Most robots that are looked at for it.
 const MOST_ROBOTS: usize = 64;
 
 /// Where to drive, and what comes.
@@ -53,10 +53,8 @@ pub(super) fn evasion(
     centre: Vector2<f64>,
     pace: f64,
 ) -> Option<Evasion> {
-    let timed = |comer: Comer<'_>| comer.arrives(parameters, centre);
-    let own = comers(scene).map(|comer| (timed(comer), comer)).min_by(|a, b| a.0.total_cmp(&b.0));
-    let pushed = pushed(parameters, scene).map(|comer| (timed(comer), comer)).min_by(|a, b| a.0.total_cmp(&b.0));
-    let (_, comer) = [own, pushed].into_iter().flatten().find(|(time, _)| *time < HORIZON)?;
+    let comer =
+        first(parameters, centre, comers(scene)).or_else(|| first(parameters, centre, pushed(parameters, scene)))?;
     let barriers = || scene.barriers(centre, parameters, 0.0).filter(|barrier| barrier.constraint != comer.constraint);
     let later = |direction: Vector2<f64>| {
         let travel = room(barriers(), direction).min(pace * HORIZON);
@@ -74,7 +72,18 @@ pub(super) fn evasion(
     Some(Evasion { direction, threat: comer.constraint, speed: comer.velocity.norm() })
 }
 
-/// Obstacles, and robots that do not do what they are told.
+/// Of those that will be at a robot at `centre` in time, the first.
+fn first<'s>(
+    parameters: &SafetyParameters,
+    centre: Vector2<f64>,
+    comers: impl Iterator<Item = Comer<'s>>,
+) -> Option<Comer<'s>> {
+    let timed = comers.map(|comer| (comer.arrives(parameters, centre), comer));
+    let (time, comer) = timed.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (time < HORIZON).then_some(comer)
+}
+
+/// Obstacles that move, and robots that do not do what they are told.
 fn comers<'s>(scene: &'s Scene<'_>) -> impl Iterator<Item = Comer<'s>> {
     let obstacles = scene.obstacles.iter().enumerate().map(|(index, obstacle)| Comer {
         constraint: Constraint::Obstacle(index),
@@ -82,11 +91,13 @@ fn comers<'s>(scene: &'s Scene<'_>) -> impl Iterator<Item = Comer<'s>> {
         velocity: obstacle.velocity,
     });
     let robots = scene.neighbours.iter().enumerate().filter(|(_, neighbour)| !neighbour.cooperative);
-    obstacles.chain(robots.map(|(index, neighbour)| Comer {
+    let robots = robots.map(|(index, neighbour)| Comer {
         constraint: Constraint::Neighbour(index),
         outline: neighbour.outline(),
         velocity: neighbour.velocity,
-    }))
+    });
+    // What rests is most of it, and need not be looked at by everybody at every tick.
+    obstacles.chain(robots).filter(|comer| comer.velocity.norm() > STILL)
 }
 
 /// Robots that will be reached, by what comes or by robots that will be, with the velocity of what comes.
