@@ -11,6 +11,8 @@ use trench_bag::run::{Run, RunBuilder};
 use trench_core::{Advertise, Level, Source, Times};
 use trench_harness::{Ending, Lockstep, Observer, load, plan};
 use trench_journal::Disk;
+use trench_msgs::Message;
+use trench_msgs::msg::LinkStatus;
 use trench_sim::Random;
 
 /// The root of the repository.
@@ -56,6 +58,8 @@ pub(crate) struct Finished {
     pub(crate) ending: Ending,
     /// Warnings and errors that nodes logged.
     pub(crate) complaints: Vec<String>,
+    /// When (s of the steady clock) whose firmware told of motors that missed steps.
+    pub(crate) missed_steps: Vec<(f64, String)>,
     /// FNV-1a over everything published, in order.
     pub(crate) digest: u64,
 }
@@ -64,13 +68,20 @@ struct Watch {
     builder: RunBuilder,
     conformity: Conformity,
     complaints: Vec<String>,
+    missed_steps: Vec<(f64, String)>,
     digest: u64,
 }
 
 impl Observer for Watch {
-    fn published(&mut self, _: Times, topic: &str, advertise: &Advertise, _: Source, cdr: &[u8]) {
+    fn published(&mut self, at: Times, topic: &str, advertise: &Advertise, _: Source, cdr: &[u8]) {
         self.builder.take(topic, advertise.type_info.name, cdr);
         self.conformity.take(topic, cdr);
+        if topic.ends_with("/link") {
+            let link = LinkStatus::decode(cdr).unwrap();
+            if link.fault & LinkStatus::FAULT_MISSED_STEPS != 0 {
+                self.missed_steps.push((at.steady.0 as f64 * 1e-9, link.robot));
+            }
+        }
         for byte in topic.bytes().chain(cdr.iter().copied()) {
             self.digest = (self.digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
@@ -94,11 +105,12 @@ pub(crate) fn drive_file(path: &Path, arguments: &[(&str, &str)]) -> Finished {
         builder: RunBuilder::default(),
         conformity: Conformity::default(),
         complaints: Vec::new(),
+        missed_steps: Vec::new(),
         digest: 0xcbf2_9ce4_8422_2325,
     };
     let ending = watched(path, arguments, &mut watch);
-    let Watch { builder, conformity, complaints, digest } = watch;
-    Finished { run: builder.finish(), conformity, ending, complaints, digest }
+    let Watch { builder, conformity, complaints, missed_steps, digest } = watch;
+    Finished { run: builder.finish(), conformity, ending, complaints, missed_steps, digest }
 }
 
 /// Drives a launch file in lock-step to its end, for someone who looks at all that is published.

@@ -70,7 +70,9 @@ impl Tick {
     /// can: steps told beyond that are missed, and bring nothing.
     pub(crate) fn within_reach(&self, twist: Twist, acts: RosTime, command: &mut Command) -> Twist {
         let asked = self.settings.axle.wheels(twist);
-        let reached = self.reached(saturate(asked, self.settings.max_wheel_speed).value, acts);
+        let (current, interval) = self.since_last(acts);
+        let told = saturate(asked, self.settings.max_wheel_speed).value;
+        let reached = self.settings.ramp.limit_each(current, told, interval);
         if reached == asked {
             return twist;
         }

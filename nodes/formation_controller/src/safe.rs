@@ -1,6 +1,7 @@
 //! The end of every tick: the safety filter, with what the vision sees and others say.
 
 use crate::hold::Hold;
+use crate::inputs::vector;
 use crate::tick::{Command, Tick, pose_of};
 use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
@@ -10,6 +11,8 @@ use trench_msgs::msg::{LeaderState, RobotState};
 
 /// Seconds without a way round after which the side of the last one is forgotten.
 const FORGET: f64 = 2.0;
+/// More pads than so many that are no robot's are not believed.
+const MOST_UNNAMED: usize = 32;
 
 impl Tick {
     /// The twist after the filter; `goal` is what a way round leads to, `pace` (m/s) how fast
@@ -32,7 +35,8 @@ impl Tick {
             command.limits |= LeaderState::LIMIT_STALE;
             return Err(Hold::NoMapper);
         }
-        let neighbours = self.neighbours(at);
+        let mut neighbours = self.neighbours(at);
+        neighbours.extend(self.unnamed());
         let hulls = self.inputs.obstacles.as_ref().map(|heard| heard.message.at(acts));
         let pose = pose_of(state);
         let obstacles = hulls.as_ref().map_or_else(Vec::new, |hulls| hulls.bodies(pose.position()));
@@ -79,5 +83,17 @@ impl Tick {
             }
         };
         others.map(neighbour).collect()
+    }
+
+    /// Pads that are no robot's yet: of a robot that was put down there, or of one that is not of the team. Nobody answers for them.
+    fn unnamed(&self) -> impl Iterator<Item = Neighbour> {
+        let pads = self.inputs.team.iter().flat_map(|team| &team.message.unnamed);
+        pads.filter(|pad| pad.x.is_finite() && pad.y.is_finite()).take(MOST_UNNAMED).map(|pad| Neighbour {
+            position: vector(pad),
+            velocity: Vector2::zeros(),
+            radius: self.settings.body_radius,
+            cooperative: false,
+            settled: false,
+        })
     }
 }

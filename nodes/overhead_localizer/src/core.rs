@@ -7,7 +7,7 @@ use crate::memory::Memory;
 use crate::report::{PERIOD, Report};
 use crate::settings::{Input, Pattern, Settings, descriptors, foreign};
 use crate::stream::Stream;
-use crate::track::{MapDisc, Tracker};
+use crate::track::{MOST_UNNAMED, MapDisc, Tracker};
 use crate::{markers, messages, naming, pads, recalibrate};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
@@ -229,7 +229,7 @@ impl OverheadLocalizer {
         if let Some(turn) = self.tracker.turn() {
             sink.publish(ODOMETRY + tracks.len(), &messages::identify(stamp, &tracks[turn.robot].name, turn));
         }
-        sink.publish(TEAM_STATE, &messages::team_state(stamp, frame_number, tracks));
+        sink.publish(TEAM_STATE, &messages::team_state(stamp, frame_number, tracks, self.tracker.unnamed()));
         let mut transforms = Vec::with_capacity(tracks.len());
         for (index, track) in tracks.iter().enumerate() {
             if let Some(state) = messages::shown(track) {
@@ -295,8 +295,8 @@ fn blind(parameters: &Parameters) -> ConfigError {
 fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     let write =
         |topic: String, type_info: &'static TypeInfo, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
-    // Names, frame and the number of robots are fixed, and so is the length.
-    let max_len = messages::team_state(Time::default(), 0, tracker.tracks()).encoded_len();
+    // Names, frame, the number of robots and the most pads besides are fixed, and so is the greatest length.
+    let max_len = messages::team_state(Time::default(), 0, tracker.tracks(), &[[0.0; 2]; MOST_UNNAMED]).encoded_len();
     // tf2's listeners keep a hundred.
     let tf = Qos { reliability: Reliability::Reliable, durability: Durability::Volatile, depth: 100 };
     let mut publications = vec![

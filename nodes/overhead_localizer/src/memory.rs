@@ -48,7 +48,7 @@ impl Memory {
         if age < SHORTEST || !any || (age < LONGEST && !self.is_news(tracks)) {
             return;
         }
-        sink.checkpoint(&messages::team_state(stamp, 0, tracks).to_cdr());
+        sink.checkpoint(&messages::team_state(stamp, 0, tracks, &[]).to_cdr());
         self.written = Some((at.steady, tracks.iter().map(place).collect()));
     }
 

@@ -7,7 +7,7 @@ use trench_msgs::builtin_interfaces::Time;
 use trench_msgs::geometry_msgs::{
     Point, Pose, PoseWithCovariance, Quaternion, Transform, TransformStamped, Twist, TwistWithCovariance, Vector3,
 };
-use trench_msgs::msg::{Identify, RobotState, TeamState};
+use trench_msgs::msg::{Identify, Point2, RobotState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_msgs::std_msgs::Header;
 
@@ -21,8 +21,9 @@ fn header(stamp: Time) -> Header {
 }
 
 /// The whole team at one exposure.
-pub(crate) fn team_state(stamp: Time, frame_number: u64, tracks: &[Track]) -> TeamState {
-    TeamState { header: header(stamp), frame_number, robots: tracks.iter().map(robot_state).collect() }
+pub(crate) fn team_state(stamp: Time, frame_number: u64, tracks: &[Track], unnamed: &[[f64; 2]]) -> TeamState {
+    let unnamed = unnamed.iter().map(|&[x, y]| Point2 { x, y }).collect();
+    TeamState { header: header(stamp), frame_number, robots: tracks.iter().map(robot_state).collect(), unnamed }
 }
 
 fn robot_state(track: &Track) -> RobotState {

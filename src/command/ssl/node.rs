@@ -225,7 +225,7 @@ mod tests {
             robot("scout", RobotState::STATUS_PREDICTED, 2.0),
         ];
         let header = Header { stamp: RosTime(5_000_000_000).into(), frame_id: "map".to_owned() };
-        let state = TeamState { header, frame_number: 3, robots }.to_cdr();
+        let state = TeamState { header, frame_number: 3, robots, ..TeamState::default() }.to_cdr();
         let at = |milliseconds: i64| Times { ros: RosTime(1_000_000 * milliseconds), steady: Steady(0) };
         let mut outbox = Outbox::default();
         sender.handle(

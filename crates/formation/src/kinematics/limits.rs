@@ -37,8 +37,8 @@ impl Ramp {
     /// curvature is the wanted one, while braking too. Otherwise each wheel goes as far as it can, and the curvature
     /// catches up with the next calls; no wheel passes what was wanted of it.
     pub fn limit(self, current: Wheels, wanted: Wheels, duration: f64) -> Limited<Wheels> {
-        let left = self.reachable(current.left, duration);
-        let right = self.reachable(current.right, duration);
+        let left = self.followable(current.left, duration);
+        let right = self.followable(current.right, duration);
         if left.contains(wanted.left) && right.contains(wanted.right) {
             return Limited { value: wanted, acted: false };
         }
@@ -52,8 +52,18 @@ impl Ramp {
         Limited { value, acted: true }
     }
 
-    /// The wheel speeds `duration` (s) after motors that ran at `current` were told `told`: each wheel goes as far as it can,
-    /// whatever that does to the curvature. What a robot does that is told more than it can follow.
+    /// The wheel speeds nearest to `wanted` that can be told to motors that run at `current` (m/s) for `duration` (s) without missing
+    /// steps: each wheel goes as far as it can, whatever that does to the curvature.
+    #[must_use]
+    pub fn limit_each(self, current: Wheels, wanted: Wheels, duration: f64) -> Wheels {
+        Wheels {
+            left: self.followable(current.left, duration).nearest_to(wanted.left),
+            right: self.followable(current.right, duration).nearest_to(wanted.right),
+        }
+    }
+
+    /// The wheel speeds `duration` (s) after motors that ran at `current` were told `told`, steps missed or not. What a robot does
+    /// that is told more than it can follow.
     #[must_use]
     pub fn reached(self, current: Wheels, told: Wheels, duration: f64) -> Wheels {
         Wheels {
@@ -68,7 +78,28 @@ impl Ramp {
         (current.left * current.left + current.right * current.right) / (4.0 * self.acceleration)
     }
 
-    /// A wheel that comes down to the pull-in speed within the time has its freedom from there on.
+    /// The speeds that a wheel can be told for `duration` and misses no more steps than on the ramp itself.
+    ///
+    /// A motor that is told `u` while it ramps from `speed` to the pull-in speed `p` within the time `(speed - p)/a` turns too far by
+    /// `(speed - p)/a ((speed + p)/2 - u)`; told the ramp's next speed, by `a duration^2/2`. So a wheel that is just above `p` may be
+    /// told anything within `+-p`, and one that needs all the time to come down to it only `p`: it reverses a step later.
+    fn followable(self, speed: f64, duration: f64) -> Interval {
+        let change = self.acceleration * duration;
+        let beyond = speed.abs() - self.pull_in_speed;
+        let reach = self.reachable(speed, duration);
+        if beyond <= 0.0 {
+            return reach;
+        }
+        let slowest = 0.5 * (speed.abs() + self.pull_in_speed - change * change / beyond);
+        if speed > 0.0 {
+            Interval { low: reach.low.max(slowest), ..reach }
+        } else {
+            Interval { high: reach.high.min(-slowest), ..reach }
+        }
+    }
+
+    /// The speeds that a wheel can have after `duration`: one that comes down to the pull-in speed within the time has its freedom
+    /// from there on.
     fn reachable(self, speed: f64, duration: f64) -> Interval {
         let change = self.acceleration * duration;
         let (low, high) = (speed - change, speed + change);
@@ -136,7 +167,10 @@ mod tests {
         check((0.0, 0.0), (0.08, -0.08), (0.08, -0.08), false);
         check((0.0, 0.0), (0.1, 0.2), (0.04, 0.08), true);
         check((0.2, 0.2), (-0.2, -0.2), (0.18, 0.18), true);
-        check((0.09, 0.09), (-0.2, -0.2), (-0.08, -0.08), true);
+        check((0.081, 0.081), (-0.2, -0.2), (-0.08, -0.08), true);
+        check((0.09, 0.09), (-0.2, -0.2), (0.065, 0.065), true);
+        check((-0.09, -0.09), (0.2, 0.2), (-0.065, -0.065), true);
+        check((0.1, 0.1), (-0.2, -0.2), (0.08, 0.08), true);
         check((0.2, 0.2), (0.0, 0.0), (0.18, 0.18), true);
         check((0.2, 0.2), (0.1, 0.2), (0.18, 0.2), true);
     }

@@ -60,6 +60,7 @@ pub struct Tracker {
     strangers: Strangers,
     turns: Turns,
     turn: Option<Turn>,
+    unnamed: Vec<[f64; 2]>,
     noise: Gaussian,
 }
 
@@ -70,6 +71,8 @@ const START_SIGMA: [f64; 3] = [0.06, 0.06, 0.3];
 /// known of its speed is void.
 const PUSHED: f64 = 31.0;
 const FREER: f64 = 10.0;
+/// More pads than so many that are nobody's are not told of.
+pub(crate) const MOST_UNNAMED: usize = 32;
 
 impl Tracker {
     /// A tracker that has seen nothing yet; `seed` is for the noise of [`Settings::added_sigma`].
@@ -83,6 +86,7 @@ impl Tracker {
             strangers: Strangers::default(),
             turns: Turns::default(),
             turn: None,
+            unnamed: Vec::new(),
             noise: Gaussian::new(seed),
             settings,
         };
@@ -119,6 +123,13 @@ impl Tracker {
     #[must_use]
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
+    }
+
+    /// Places (m) of pads of the present frame that are no robot's yet: of one that was carried there, before it is known which, or
+    /// of one that is not of the team.
+    #[must_use]
+    pub fn unnamed(&self) -> &[[f64; 2]] {
+        &self.unnamed
     }
 
     /// What is asked of whom, to find out which robot it is; good for the present frame.
@@ -238,7 +249,18 @@ impl Tracker {
             self.turn = turns.step(dt, tracks, &unmatched, settings.hold, measurement);
             self.resolve(unmatched.is_empty());
         }
+        self.unnamed = self.nobody_s(&unmatched);
         self.settle();
+    }
+
+    /// Those of `pads` that are not where a robot is seen: no two bodies are in one place.
+    fn nobody_s(&self, pads: &[Pair]) -> Vec<[f64; 2]> {
+        let seen = self.tracks.iter().filter(|track| track.unseen == 0.0).filter_map(|track| track.filter.as_ref());
+        let places: Vec<Pose2> = seen.map(|filter| filter.state().pose).collect();
+        let body = 0.5 * self.settings.pad.body_diameter;
+        let apart = |pad: &Pose2| places.iter().all(|robot| libm::hypot(robot.x - pad.x, robot.y - pad.y) > body);
+        let apart = pads.iter().map(|pair| pair.pose).filter(apart);
+        apart.take(MOST_UNNAMED).map(|pose| [pose.x, pose.y]).collect()
     }
 
     /// The pads of a frame as they are seen.

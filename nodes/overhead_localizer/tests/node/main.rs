@@ -264,6 +264,10 @@ fn more_pads_than_robots_and_fewer_do_not_move_names() {
         for (robot, pose) in state.robots.iter().zip(START) {
             assert!((robot.x - pose.x).hypot(robot.y - pose.y) < 1e-3, "frame {sequence}: {robot:?}");
         }
+        // The controllers keep off it from its first frame on, and off no robot's pad twice.
+        let unnamed: Vec<[f64; 2]> = state.unnamed.iter().map(|pad| [pad.x, pad.y]).collect();
+        assert_eq!(unnamed.len(), usize::from(pads.contains(&stranger)), "frame {sequence}: {unnamed:?}");
+        assert!(unnamed.iter().all(|[x, y]| (x - stranger.x).hypot(y - stranger.y) < 1e-3), "{unnamed:?}");
         let report = outbox.published::<DiagnosticArray>(2).pop();
         (state.robots.iter().map(|robot| robot.status).collect::<Vec<_>>(), report)
     };

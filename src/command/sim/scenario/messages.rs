@@ -52,7 +52,7 @@ impl<'a> Publisher<'a> {
             omega: sample.turn_rate,
             ..RobotState::default()
         });
-        let team = TeamState { header: header.clone(), frame_number: 0, robots: robots.collect() };
+        let team = TeamState { header: header.clone(), frame_number: 0, robots: robots.collect(), unnamed: Vec::new() };
         sink.publish(time, "/team_state", Qos::RELIABLE, &team);
         let goal = |(seat, sample): (&Seat, &Sample)| {
             Some(Goal { robot: seat.name.clone(), position: point(sample.goal?), ..Goal::default() })
