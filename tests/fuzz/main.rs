@@ -1,7 +1,7 @@
 //! Parsers meet bytes that nobody meant: corpora of real files and frames, mutated at random, for a bounded time.
 //!
 //! `TRENCH_FUZZ_SECONDS` sets how long each target runs (2; scripts/acceptance takes longer), `TRENCH_FUZZ_SEED` where chance
-//! begins (1). What made a target panic is left in `target/fuzz/<target>`; inputs in `tests/fuzz/found/<target>` are those that once
+//! begins (1). What made a target panic is left in `target/fuzz/<target>`, what ended the process in `<target>.trying`; inputs in `tests/fuzz/found/<target>` are those that once
 //! did, and are tried first.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -12,6 +12,7 @@ mod seal;
 use corpus::{root, texts};
 use mutate::Mutator;
 use std::collections::BTreeMap;
+use std::os::unix::fs::FileExt;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use trench_bag::BagReader;
@@ -44,8 +45,12 @@ fn fuzz(name: &str, corpus: &[Vec<u8>], target: impl FnMut(&[u8])) {
 fn fuzz_sealed(name: &str, corpus: &[Vec<u8>], seal: fn(&[u8]) -> Vec<u8>, mut target: impl FnMut(&[u8])) {
     let folder = root().join("target/fuzz");
     std::fs::create_dir_all(&folder).unwrap();
-    let kept = folder.join(name);
+    let (kept, trying) = (folder.join(name), folder.join(format!("{name}.trying")));
+    // What ends the process at once, as memory that nobody has, is not caught below.
+    let last = std::fs::File::create(&trying).unwrap();
     let mut attempt = |input: &[u8]| {
+        last.set_len(input.len() as u64).unwrap();
+        last.write_all_at(input, 0).unwrap();
         let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| target(input)));
         if let Err(panic) = outcome {
             std::fs::write(&kept, input).unwrap();
@@ -68,6 +73,7 @@ fn fuzz_sealed(name: &str, corpus: &[Vec<u8>], seal: fn(&[u8]) -> Vec<u8>, mut t
         }
         attempts += 1;
     }
+    std::fs::remove_file(&trying).unwrap();
     println!("{name}: {attempts} inputs");
 }
 

@@ -95,6 +95,8 @@ fn obstacles() {
     let euler = "method: semi_implicit_euler";
     check("7.11.yaml", euler, &format!("{euler}\nsafety: {{body_radius: 0.1}}"), &["safety", "give limits"]);
     check("7.11.yaml", euler, &format!("{euler}\nsight: {{range: 0.0, piece: 0.5}}"), &["sight.range", "not positive"]);
+    let fine = "sight: {range: 4.0, piece: 1.0e-9}";
+    check("7.11.yaml", euler, &format!("{euler}\n{fine}"), &["sight", "more than 100000", "longer `piece`"]);
     let sight = "sight: {range: 4.0, piece: 0.5}";
     check(
         "9.1_bent_corridor.yaml",

@@ -59,7 +59,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             real: scenario.obstacles.clone(),
             velocities: scenario.velocities_of(&obstacles),
             obstacles,
-            knowledge: scenario.options.sight.map(|sight| Knowledge::new(&scenario.obstacles, sight)),
+            knowledge: scenario.options.sight.map(|sight| scenario.knowledge(sight)).transpose()?,
             robots: scenario.robots.clone(),
             seen: scenario.robots.clone(),
             agents: vec![Agent::new(scenario.agent()); count],

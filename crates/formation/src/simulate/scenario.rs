@@ -1,4 +1,5 @@
 //! What is simulated.
+use super::sight::{Knowledge, MOST_PIECES};
 use super::{Carriage, Integration, Neighbours, Sight};
 use crate::Vector2;
 use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
@@ -99,6 +100,9 @@ pub enum ScenarioError {
     /// Boundaries that are seen piece by piece while their obstacle moves.
     #[error("obstacles that move cannot be seen piece by piece: let them rest, or have all boundaries known")]
     SightOfMoving,
+    /// Boundaries in more pieces than can be looked at.
+    #[error("pieces of {0} m cut the boundaries of the obstacles into more than {MOST_PIECES:.0}")]
+    SightTooFine(f64),
     /// See [`HullError`].
     #[error(transparent)]
     Hull(#[from] HullError),
@@ -108,6 +112,11 @@ pub enum ScenarioError {
 }
 
 impl<T: Clone> ChainScenario<T> {
+    /// What a team knows of its obstacles at the start.
+    pub(super) fn knowledge(&self, sight: Sight) -> Result<Knowledge, ScenarioError> {
+        Knowledge::new(&self.obstacles, sight).ok_or(ScenarioError::SightTooFine(sight.piece))
+    }
+
     /// The controller that every robot gets.
     pub fn agent(&self) -> AgentSettings<T> {
         AgentSettings {

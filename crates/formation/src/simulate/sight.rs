@@ -14,6 +14,8 @@ pub struct Sight {
 
 /// Points per rounded corner of a boundary.
 const CORNER: usize = 16;
+/// Every robot looks at every piece that nobody has seen yet, and every edge may hide it.
+pub(super) const MOST_PIECES: f64 = 1e5;
 /// What meets a line of sight within this part of it from either end does not hide anything.
 const TOUCH: f64 = 1e-6;
 
@@ -32,8 +34,8 @@ pub(super) struct Knowledge {
 }
 
 impl Knowledge {
-    /// A team that has seen nothing.
-    pub(super) fn new(obstacles: &[Obstacle], sight: Sight) -> Self {
+    /// A team that has seen nothing; none where the boundaries are more than [`MOST_PIECES`].
+    pub(super) fn new(obstacles: &[Obstacle], sight: Sight) -> Option<Self> {
         let mut edges = Vec::new();
         for obstacle in obstacles {
             let outline = obstacle.shape.outline();
@@ -43,13 +45,17 @@ impl Knowledge {
                 edges.extend(outline.edges().map(|(start, end)| [start, end]));
             }
         }
-        let cut = |&[start, end]: &Edge| {
-            let count = libm::ceil((end - start).norm() / sight.piece).max(1.0);
+        let pieces = |&[start, end]: &Edge| libm::ceil((end - start).norm() / sight.piece).max(1.0);
+        if edges.iter().map(pieces).sum::<f64>() > MOST_PIECES {
+            return None;
+        }
+        let cut = |edge: &Edge| {
+            let (&[start, end], count) = (edge, pieces(edge));
             let at = move |index: u32| start + (end - start) * (f64::from(index) / count);
             (0..count as u32).map(move |index| [at(index), at(index + 1)])
         };
         let unseen = edges.iter().flat_map(cut).collect();
-        Self { sight, edges, unseen, known: Vec::new() }
+        Some(Self { sight, edges, unseen, known: Vec::new() })
     }
 
     /// The pieces that were seen, as obstacles.
