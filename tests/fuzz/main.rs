@@ -1,8 +1,8 @@
 //! Parsers meet bytes that nobody meant: corpora of real files and frames, mutated at random, for a bounded time.
 //!
 //! `TRENCH_FUZZ_SECONDS` sets how long each target runs (2; scripts/acceptance takes longer), `TRENCH_FUZZ_SEED` where chance
-//! begins (1). What made a target panic is left in `target/fuzz/<target>`, what ended the process in `<target>.trying`; inputs in `tests/fuzz/found/<target>` are those that once
-//! did, and are tried first.
+//! begins (1). What made a target panic is left in `target/fuzz/<target>`, what ended the process in `<target>.trying`; inputs in
+//! `tests/fuzz/found/<target>` are those that once did, and are tried first.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod corpus;

@@ -4,7 +4,7 @@ mod safety_bench;
 
 use core::f64::consts::{PI, TAU};
 use nalgebra::Vector2;
-use safety_bench::{Bed, HALF_AXLE, MARGIN, RADIUS, Random, Robot, random_team};
+use safety_bench::{Bed, HALF_AXLE, MARGIN, RADIUS, Random, Robot, random_team, random_team_under_way};
 use trench_formation::hull::Outline;
 use trench_formation::kinematics::{Pose, Twist};
 use trench_formation::safety::{
@@ -48,6 +48,24 @@ fn random_teams_never_touch() {
         assert!(least > 0.5 * MARGIN, "{count} robots came within {least} m");
         assert!(late.len() <= 2, "{count} robots were late with seeds {late:?}");
     }
+}
+
+/// From poses and speeds anywhere, if only there was room to stop.
+#[test]
+fn random_teams_under_way_never_touch() {
+    let (mut late, mut running) = (Vec::new(), 0);
+    for count in 2..=8 {
+        for seed in 0..60 {
+            let team = random_team_under_way(seed, count, 0.1);
+            running += team.iter().filter(|robot| robot.twist() != Twist::ZERO).count();
+            let mut bed = Bed::new(team, 33, 60);
+            let (gap, time) = run(&mut bed, 60);
+            assert!(gap > 0.0, "{count} robots, seed {seed}: contact ({gap} m)");
+            late.extend(time.is_none().then_some((count, seed)));
+        }
+    }
+    assert!(running > 1000, "{running} robots alone were under way");
+    assert!(late.len() <= 14, "late: {late:?}");
 }
 
 #[test]

@@ -60,6 +60,18 @@ impl Robot {
         Twist { v: 0.5 * (left + right), omega: (right - left) / (2.0 * HALF_AXLE) }
     }
 
+    /// Under way with these wheel speeds (m/s), as it was told.
+    pub(crate) fn running(self, wheels: [f64; 2]) -> Self {
+        Self { wheels, target: wheels, ..self }
+    }
+
+    /// How far it gets at most until it stands, m, when it is told to `wait` (s) from now.
+    fn stopping(&self, wait: f64) -> f64 {
+        let [left, right] = self.wheels;
+        let braking = (left * left + right * right) / (4.0 * WHEEL_ACCELERATION);
+        self.twist().v.abs() * wait + braking
+    }
+
     pub(crate) fn velocity(&self) -> Vector2<f64> {
         self.twist().v * self.pose.heading()
     }
@@ -189,4 +201,23 @@ pub(crate) fn random_team(seed: u64, count: usize) -> Vec<Robot> {
         Robot::new(Pose::new(start.x, start.y, random.between(-3.1, 3.1)), *goal)
     };
     starts.iter().zip(&goals).map(place).collect()
+}
+
+/// Random poses, goals and wheel speeds: any that leave each robot, as it is, room to stop, of which half is another robot's.
+pub(crate) fn random_team_under_way(seed: u64, count: usize, wait: f64) -> Vec<Robot> {
+    let random = &mut Random(seed + 31_415);
+    let mut team = random_team(seed, count);
+    for index in 0..count {
+        let at = team[index].pose.position();
+        let others = team.iter().enumerate().filter(|(other, _)| *other != index);
+        let gaps = others.map(|(_, other)| 0.5 * ((other.pose.position() - at).norm() - 2.0 * RADIUS - MARGIN));
+        let edge = at.x.min(2.48 - at.x).min(at.y).min(1.83 - at.y) - RADIUS - MARGIN;
+        let room = gaps.fold(edge, f64::min);
+        let mut wheel = || random.between(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED);
+        let tried = (0..20).map(|_| team[index].clone().running([wheel(), wheel()]));
+        if let Some(running) = tried.into_iter().find(|robot| robot.stopping(wait) <= room) {
+            team[index] = running;
+        }
+    }
+    team
 }
