@@ -7,7 +7,7 @@ use trench_core::RosTime;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, Placed};
 use trench_msgs::Message;
-use trench_msgs::msg::{Assignment, Formation, Goals, RunState};
+use trench_msgs::msg::{Assignment, Formation, Goals, LeaderState, RunState};
 use trench_msgs::nav_msgs::Odometry;
 use trench_plan::curve_from_message;
 
@@ -25,6 +25,8 @@ pub(crate) struct Conformity {
     segments: BTreeMap<i64, Vec<Curve>>,
     t0: Option<i64>,
     field: Field,
+    /// What each robot's law drives (its point off the axle, or its centre) by its last word, m.
+    points: BTreeMap<String, [f64; 2]>,
 }
 
 /// One robot at one time.
@@ -45,6 +47,8 @@ pub(crate) struct Conformed {
     pub(crate) robots: BTreeMap<String, Vec<Sample>>,
     /// Where each robot is at the end, m, with a segment or without.
     pub(crate) places: BTreeMap<String, [f64; 2]>,
+    /// What each robot's law drives, at the end, m.
+    pub(crate) points: BTreeMap<String, [f64; 2]>,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
     pub(crate) hindrance: Hindrance,
@@ -75,6 +79,10 @@ impl Conformity {
                     self.t0.get_or_insert(t0);
                 }
             }
+            _ if topic.ends_with("/leader_state") => {
+                let state = LeaderState::decode(cdr).unwrap();
+                self.points.insert(state.robot, [state.point.x, state.point.y]);
+            }
             _ => {
                 let robot = topic.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
                 if let Some(robot) = robot {
@@ -89,7 +97,7 @@ impl Conformity {
 
     pub(crate) fn finish(&self) -> Conformed {
         let t0 = self.t0.unwrap();
-        let mut conformed = Conformed::default();
+        let mut conformed = Conformed { points: self.points.clone(), ..Conformed::default() };
         for (robot, track) in &self.truth {
             let hindrance = &mut conformed.hindrance;
             let sample = |(stamp, position): (&i64, &[f64; 2])| {
@@ -142,6 +150,15 @@ impl Conformed {
     pub(crate) fn apart(&self, other: &Self, time: f64) -> f64 {
         let (ours, theirs) = (self.at(time), other.at(time));
         ours.iter().map(|(robot, sample)| (sample.place - theirs[robot].place).norm()).fold(0.0, f64::max)
+    }
+
+    /// The largest distance between what the law of a robot drives in both runs, at the end, m.
+    pub(crate) fn points_apart(&self, other: &Self) -> f64 {
+        let apart = |(robot, [x, y]): (&String, &[f64; 2])| {
+            let [other_x, other_y] = other.points[robot];
+            libm::hypot(x - other_x, y - other_y)
+        };
+        self.points.iter().map(apart).fold(0.0, f64::max)
     }
 
     /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:
