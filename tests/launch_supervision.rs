@@ -2,7 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, in its helper functions too")]
 
+#[path = "support/own_memory.rs"]
+mod own_memory;
+
+use own_memory::OwnMemory;
 use rustix::process::{Pid, Signal, kill_process, test_kill_process};
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -140,6 +145,63 @@ fn a_crash_loop_is_bounded_and_reported() {
     assert_eq!(code, Some(1), "{log}");
     assert_eq!(log.matches("process started").count(), 5, "{log}");
     assert!(log.contains("ended 5 times within 1 s of its start: not starting it again"), "{log}");
+}
+
+/// Starts a launch of a node with a program of this name, which does what `script` says, beside a sleeper of three seconds.
+fn run_beside_a_sleeper(name: &str, script: &str, more: &str) -> (Option<i32>, String) {
+    let programs = tempfile::tempdir().unwrap();
+    let program = programs.path().join(name);
+    std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).unwrap();
+    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    // What calls for help is a node: in a domain and memory of its own it stops nobody else's robots.
+    let number = std::process::id();
+    let memory = OwnMemory(format!("given_up{number}_{name}"));
+    let variables = [("ROS_DOMAIN_ID", (61 + number % 10).to_string()), ("TRENCH_SHM_PREFIX", memory.0.clone())];
+    let set = variables.map(|(name, value)| format!("- set_env: {{name: {name}, value: \"{value}\"}}\n")).concat();
+    let node = format!("- node: {{exec: {}, {more}}}\n", program.display());
+    let (code, _, log) = run(&format!("{set}{node}- executable: {{name: sleeper, cmd: sleep 3}}\n"));
+    assert!(log.contains("[sleeper-2]: process has finished cleanly"), "{log}");
+    (code, log)
+}
+
+const RESPAWN: &str = "respawn: \"true\"";
+
+#[test]
+fn an_emergency_stop_is_called_when_a_node_that_all_robots_need_is_given_up() {
+    for (name, more, reason) in [
+        ("rf_bridge", RESPAWN, "not starting it again"),
+        ("obstacle_mapper", "respawn: \"true\", respawn_max_retries: 1", "was started again 1 times: no more"),
+        ("leader_assignment", "name: once", "process has died"),
+        ("formation_controller", "args: \"--namespaces x\"", "process has died"),
+    ] {
+        let (code, log) = run_beside_a_sleeper(name, "exit 1", more);
+        assert_eq!(code, Some(12), "{log}");
+        let (_, after) = log.rsplit_once(reason).unwrap();
+        assert!(after.contains("it is not started again: stopping them"), "{log}");
+        assert!(after.contains("[emergency_stop-3]: process started"), "{log}");
+        assert!(after.contains("]: stop"), "it says so: {log}");
+        // It goes on until nothing else runs.
+        let (before, end) = after.split_once("[sleeper-2]: process has finished cleanly").unwrap();
+        assert!(!before.contains("[emergency_stop-3]: process has"), "{log}");
+        assert!(end.contains("[emergency_stop-3]: process has finished cleanly"), "{log}");
+        assert!(
+            log.trim_end().ends_with("was given up, so that the robots were stopped: see above why it died"),
+            "{log}"
+        );
+    }
+}
+
+#[test]
+fn nobody_is_stopped_for_one_robot_s_controller_or_for_what_watches_or_for_what_was_asked_to_end() {
+    for (name, script, more, code) in [
+        ("formation_controller", "exit 1", RESPAWN, 1),
+        ("bag_recorder", "exit 1", "name: recorder", 1),
+        ("rf_bridge", "exit 0", "name: bridge", 0),
+    ] {
+        let (ended, log) = run_beside_a_sleeper(name, script, more);
+        assert_eq!(ended, Some(code), "{log}");
+        assert!(!log.contains("emergency_stop"), "{log}");
+    }
 }
 
 #[test]

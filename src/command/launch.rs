@@ -1,5 +1,6 @@
 //! `trench launch`: runs a ROS 2 launch file.
 
+mod alarm;
 mod journals;
 
 use clap::Parser;
@@ -19,6 +20,8 @@ Exit codes:
   1    a process failed and none is marked `on_exit: shutdown`
   2    the launch file or the arguments are wrong, and nothing was started; or a node refused its command line
   3    a node refused its parameters, or a file that they name: it is not started again, the run ends, its words come last
+  12   a node that all robots need died and was not started again: an emergency stop was called, which holds until ~/reset of
+       rf_bridge; whatever others ended with
   130  interrupted before the process marked `on_exit: shutdown` ended";
 
 /// Starts and supervises the processes of a ROS 2 launch file in YAML.
@@ -96,6 +99,8 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     for warning in &plan.warnings {
         eprintln!("trench launch: warning: {warning}");
     }
+    // Before journals are asked for: it is no node of the run.
+    let alarm = alarm::of(&plan)?;
     if let Some(kept) = arguments.journal {
         journals::keep(&mut plan, kept, &run_folder)?;
     }
@@ -107,7 +112,7 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     eprintln!("trench launch: run folder {}", run_folder.display());
     // What they mean no restart can mend.
     let refusals = vec![Exit::Usage as u8, Exit::Configuration as u8];
-    let options = Options { refusals, ..Options::new(&run_folder.join("log")) };
+    let options = Options { refusals, alarm, ..Options::new(&run_folder.join("log")) };
     Ok(trench_launch::supervise(&plan, &options)?.exit_code())
 }
 

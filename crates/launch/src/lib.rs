@@ -16,4 +16,4 @@ mod supervise;
 
 pub use plan::{Argument, Output, ParameterFile, Plan, Process, Respawn};
 pub use resolve::{Request, arguments, resolve};
-pub use supervise::{Options, Outcome, SuperviseError, supervise};
+pub use supervise::{Alarm, Options, Outcome, SuperviseError, supervise};

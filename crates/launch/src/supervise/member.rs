@@ -23,6 +23,8 @@ pub(super) struct Member<'a> {
     failed: bool,
     /// What it said, if its configuration is what it refused.
     refusal: Option<LastWords>,
+    /// Whether it is what calls for help.
+    is_alarm: bool,
 }
 
 enum State {
@@ -53,7 +55,24 @@ pub(super) enum Step {
 
 impl<'a> Member<'a> {
     pub(super) fn new(index: usize, process: &'a Process, at: Instant) -> Self {
-        Self { index, process, state: State::Waiting { at }, retries: 0, short_lives: 0, failed: false, refusal: None }
+        let state = State::Waiting { at };
+        Self { index, process, state, retries: 0, short_lives: 0, failed: false, refusal: None, is_alarm: false }
+    }
+
+    /// What calls for help, which nobody needs yet.
+    pub(super) fn asleep(index: usize, process: &'a Process) -> Self {
+        Self { state: State::Ended, is_alarm: true, ..Self::new(index, process, Instant::now()) }
+    }
+
+    /// Has a process started that was asleep.
+    pub(super) fn wake(&mut self, now: Instant) {
+        if self.has_ended() {
+            self.state = State::Waiting { at: now };
+        }
+    }
+
+    pub(super) fn is_alarm(&self) -> bool {
+        self.is_alarm
     }
 
     pub(super) fn label(&self) -> &str {

@@ -15,6 +15,7 @@ use crate::plan::{Plan, Process};
 use member::{Member, Step};
 use output::{Console, LastWords};
 use signal_hook::consts::{SIGINT, SIGTERM};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
@@ -35,10 +36,21 @@ pub struct Options {
     /// The exit codes by which a node says that it refuses its command line or configuration: it is not started again, and
     /// the run ends with that code.
     pub refusals: Vec<u8>,
+    /// What is started when a process that matters dies and is not started again.
+    pub alarm: Option<Alarm>,
+}
+
+/// What calls for help.
+#[derive(Debug, Clone)]
+pub struct Alarm {
+    /// The process. It runs until all others have ended, or the run ends.
+    pub process: Process,
+    /// Labels of the processes that matter.
+    pub matters: BTreeSet<String>,
 }
 
 impl Options {
-    /// The usual limits: five lives in a row of less than a second. No exit code is a refusal.
+    /// The usual limits: five lives in a row of less than a second. No exit code is a refusal, and there is no alarm.
     #[must_use]
     pub fn new(log_folder: &Path) -> Self {
         Self {
@@ -46,6 +58,7 @@ impl Options {
             short_life: Duration::from_secs(1),
             most_short_lives: 5,
             refusals: Vec::new(),
+            alarm: None,
         }
     }
 }
@@ -97,6 +110,7 @@ pub fn supervise(plan: &Plan, options: &Options) -> Result<Outcome, SuperviseErr
         .iter()
         .enumerate()
         .map(|(index, process)| Member::new(index, process, start + process.start_after))
+        .chain(options.alarm.iter().map(|alarm| Member::asleep(plan.processes.len(), &alarm.process)))
         .collect();
     let mut run = Run {
         members,
@@ -108,14 +122,19 @@ pub fn supervise(plan: &Plan, options: &Options) -> Result<Outcome, SuperviseErr
         interrupted: false,
         goal: None,
         refused: None,
+        given_up: None,
     };
     run.until_all_ended(&events);
     let outcome = run.outcome();
     let refusals = run.refusals();
+    let given_up = run.given_up.take();
     drop(run);
     // Readers hold the other ends: the channel closes when the last line of output is written.
     let _ = all_read.recv_timeout(LAST_WORDS);
     repeat(&refusals, &console);
+    if let Some(label) = given_up {
+        console.say("ERROR", &label, "was given up, so that the robots were stopped: see above why it died");
+    }
     Ok(outcome)
 }
 
@@ -194,6 +213,8 @@ struct Run<'a> {
     goal: Option<u8>,
     /// The exit code of the node that refused its configuration first.
     refused: Option<u8>,
+    /// The first process that matters and is not started again.
+    given_up: Option<String>,
 }
 
 impl Run<'_> {
@@ -202,8 +223,12 @@ impl Run<'_> {
             for member in &mut self.members {
                 member.act(Instant::now(), &self.console, &self.sender, &self.alive);
             }
+            self.call_for_help();
             if self.members.iter().all(Member::has_ended) {
                 return;
+            }
+            if !self.ending && self.members.iter().all(|member| member.has_ended() || member.is_alarm()) {
+                self.end_all();
             }
             let next = self.members.iter().filter_map(Member::next_deadline).min();
             let wait = next.map_or(Duration::from_secs(3600), |at| at.saturating_duration_since(Instant::now()));
@@ -254,6 +279,23 @@ impl Run<'_> {
         }
     }
 
+    /// Starts the alarm once a process that matters has died for good. One that ends with 0 was asked to by somebody.
+    fn call_for_help(&mut self) {
+        let Some(alarm) = self.options.alarm.as_ref().filter(|_| !self.ending && self.given_up.is_none()) else {
+            return;
+        };
+        let is_lost =
+            |member: &&Member| member.has_ended() && member.failed() && alarm.matters.contains(member.label());
+        let Some(label) = self.members.iter().find(is_lost).map(|member| member.label().to_owned()) else { return };
+        self.console.say("ERROR", &label, "all robots need it, and it is not started again: stopping them");
+        self.given_up = Some(label);
+        let now = Instant::now();
+        for member in self.members.iter_mut().filter(|member| member.is_alarm()) {
+            member.wake(now);
+            member.act(now, &self.console, &self.sender, &self.alive);
+        }
+    }
+
     fn refusals(&self) -> Vec<(String, LastWords)> {
         let refusals = self.members.iter().filter_map(Member::refusal);
         refusals.map(|(label, words)| (label.to_owned(), words)).collect()
@@ -263,6 +305,7 @@ impl Run<'_> {
         let has_goal = self.members.iter().any(Member::ends_run);
         match (self.refused, self.goal) {
             (Some(code), _) => Outcome::Refused { code },
+            _ if self.given_up.is_some() => Outcome::Stopped,
             (None, Some(code)) => Outcome::Goal { code },
             _ if self.interrupted && has_goal => Outcome::Interrupted,
             _ if self.members.iter().any(Member::failed) => Outcome::Failed,
