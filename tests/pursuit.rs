@@ -53,6 +53,22 @@ fn pursue(seed: u64) {
     print!("seed {seed}: ");
     stands_without_contact(&finished, &what);
     pursued::judge(&finished.conformity.finish(), &what);
+    energy_is_accounted_for(&finished, &what);
+}
+
+/// Nobody but the laws and their inputs moves a robot here: no monitor finds V beyond its bound. What it finds otherwise is so: robots
+/// that came into zone 1 of their leader, or lost it from sight.
+fn energy_is_accounted_for(finished: &Finished, what: &str) {
+    let is_of = |equation: &str| finished.violations.iter().filter(|(_, said)| said.contains(equation)).count();
+    let (near, far) = (is_of(": A.12 (i): "), is_of(": 6.2.2: "));
+    let others: Vec<_> = finished
+        .violations
+        .iter()
+        .filter(|(_, said)| !said.contains(": A.12 (i): ") && !said.contains(": 6.2.2: "))
+        .collect();
+    println!("{} words of monitors, {near} on zone 1, {far} on leaders beyond rho_bar", finished.words);
+    assert!(finished.words > 10_000, "{what}: ten words a second and robot, not {}", finished.words);
+    assert!(others.is_empty(), "{what}: {others:?}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use trench_core::{Advertise, Level, Source, Times};
 use trench_harness::{Ending, Lockstep, Observer, load, plan};
 use trench_journal::Disk;
 use trench_msgs::Message;
-use trench_msgs::msg::LinkStatus;
+use trench_msgs::msg::{LinkStatus, Stability};
 use trench_sim::Random;
 
 /// The root of the repository.
@@ -60,6 +60,9 @@ pub(crate) struct Finished {
     pub(crate) complaints: Vec<String>,
     /// When (s of the steady clock) whose firmware told of motors that missed steps.
     pub(crate) missed_steps: Vec<(f64, String)>,
+    /// When (s of the steady clock) which run-time monitor said that something does not hold, and how many words all of them said.
+    pub(crate) violations: Vec<(f64, String)>,
+    pub(crate) words: usize,
     /// FNV-1a over everything published, in order.
     pub(crate) digest: u64,
 }
@@ -69,6 +72,8 @@ struct Watch {
     conformity: Conformity,
     complaints: Vec<String>,
     missed_steps: Vec<(f64, String)>,
+    violations: Vec<(f64, String)>,
+    words: usize,
     digest: u64,
 }
 
@@ -80,6 +85,13 @@ impl Observer for Watch {
             let link = LinkStatus::decode(cdr).unwrap();
             if link.fault & LinkStatus::FAULT_MISSED_STEPS != 0 {
                 self.missed_steps.push((at.steady.0 as f64 * 1e-9, link.robot));
+            }
+        }
+        if topic.ends_with("/stability") {
+            let word = Stability::decode(cdr).unwrap();
+            self.words += 1;
+            if !word.holds {
+                self.violations.push((at.steady.0 as f64 * 1e-9, word.violation));
             }
         }
         for byte in topic.bytes().chain(cdr.iter().copied()) {
@@ -106,11 +118,13 @@ pub(crate) fn drive_file(path: &Path, arguments: &[(&str, &str)]) -> Finished {
         conformity: Conformity::default(),
         complaints: Vec::new(),
         missed_steps: Vec::new(),
+        violations: Vec::new(),
+        words: 0,
         digest: 0xcbf2_9ce4_8422_2325,
     };
     let ending = watched(path, arguments, &mut watch);
-    let Watch { builder, conformity, complaints, missed_steps, digest } = watch;
-    Finished { run: builder.finish(), conformity, ending, complaints, missed_steps, digest }
+    let Watch { builder, conformity, complaints, missed_steps, violations, words, digest } = watch;
+    Finished { run: builder.finish(), conformity, ending, complaints, missed_steps, violations, words, digest }
 }
 
 /// Drives a launch file in lock-step to its end, for someone who looks at all that is published.

@@ -15,7 +15,7 @@ fn at(x: f64, y: f64) -> Vector2<f64> {
     Vector2::new(x, y)
 }
 
-fn settings(method: Method) -> AgentSettings<Hyperbolic> {
+fn settings(method: Method, sidesteps: bool) -> AgentSettings<Hyperbolic> {
     let radii = Radii::new(0.5, 1.5, 2.5, 8.0, 30.0).unwrap();
     AgentSettings {
         law: NearestAttraction { trench: Hyperbolic { alpha: 10.0, a: 1.0 }, damping: 2.0, leader_damping: 0.0 },
@@ -33,7 +33,7 @@ fn settings(method: Method) -> AgentSettings<Hyperbolic> {
         encroaching: Encroaching::Nothing,
         remedies: None,
         limits: None,
-        sidesteps: false,
+        sidesteps,
     }
 }
 
@@ -51,6 +51,7 @@ proptest! {
             Just((Method::Directed { direction: Some(at(0.6, 0.8)), compensates: false }, false)),
             Just((Method::Goal(None), true)),
         ],
+        sidesteps in any::<bool>(),
     ) {
         let (method, to_goal) = method;
         let line = CurveShape::Line(at(-9.0, -0.5), at(9.0, 0.5));
@@ -86,7 +87,7 @@ proptest! {
         ] {
             prop_assume!((distance - edge).abs() > 1e-3);
         }
-        let mut agent = Agent::new(settings(method));
+        let mut agent = Agent::new(settings(method, sidesteps));
         agent.sense(&around).unwrap();
         let now = agent.steer(&around, start, 0.0);
         let step = 1e-5;
@@ -94,6 +95,9 @@ proptest! {
         let slope = (value(step) - value(-step)) / (2.0 * step);
         let expected = now.steered.lyapunov_rate + now.powers.leader + now.powers.robots + now.powers.obstacles;
         prop_assert!((slope - expected).abs() < 1e-4 * (1.0 + slope.abs() + now.steered.lyapunov), "{slope} {expected} {now:?}");
+        let own = now.steered.lyapunov - now.values.sum();
+        prop_assert!(own >= 0.0, "what is left is kinetic and of the trench: {now:?}");
+        prop_assert_eq!(agent.foreseen(&around, start, 0.0), now, "what is only asked for is the same");
         let forces = now.forces.of_potentials() + now.forces.damping;
         prop_assert!((forces - now.acceleration).norm() < 1e-9, "the terms add up");
     }

@@ -11,6 +11,7 @@ use trench_formation::Vector2;
 use trench_formation::agent::Surroundings;
 use trench_formation::kinematics::{PointState, Pose, Twist, twist_of_hand};
 use trench_formation::laws::{GoalMotion, Lyapunov};
+use trench_formation::stability::Supply;
 use trench_msgs::msg::LeaderState;
 
 /// Step of the integration, s.
@@ -76,6 +77,7 @@ impl Tick {
             velocities: &hulls.velocities,
         };
         let agent = self.agent.as_mut().ok_or(Hold::NotFinite)?;
+        let foreseen = self.news.take().map(|news| (news.foreseen(agent, around.curve, robot, acts), news));
         agent.sense(&around).map_err(|_| Hold::NotFinite)?;
         let driven = agent.drive(&around, robot, duration, STEP);
         if driven.cut {
@@ -87,7 +89,11 @@ impl Tick {
         let error = self.recursion.observe(settings, &around, robot, chain.leader, &driven);
         let driving =
             Driving { settings, around: &around, leader: chain.leader, driven: &driven, robot, acts, duration, epoch };
-        let watched = driving.watched(&mut self.news);
+        let news = foreseen.map_or_else(Supply::default, |(foreseen, news)| {
+            news.compared(&foreseen, (&around, &action, robot.position), &settings.agent.law.trench)
+        });
+        let watched = driving.watched(news);
+        self.news = Some(driving.expected());
         if self.draws {
             let radii = zoned.then(|| settings.agent.zoning.radii());
             let picture = Picture {

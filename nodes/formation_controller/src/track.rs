@@ -1,7 +1,7 @@
 //! The laws of chapter 4 in a tick, and what the monitor makes of any law.
 
 use crate::Law;
-use crate::monitor::{Expected, watched};
+use crate::monitor::watched;
 use crate::tick::{Command, Tick, Wanted};
 use trench_core::Times;
 use trench_formation::Vector2;
@@ -14,15 +14,15 @@ impl Tick {
     /// Has the monitor look at what the law wanted and what is sent.
     pub(crate) fn watch(&mut self, at: Times, ahead: Pose, wanted: &Wanted, command: &mut Command) {
         let Some(watched) = &wanted.watched else { return self.monitor.restart() };
-        let point = match watched.expected {
-            // Where limits and filter left the law alone, the point does what it expects.
-            Expected::Point { mean, .. } if wanted.twist == command.twist => mean,
-            _ => self.steered_velocity(ahead, command.twist),
-        };
         let acted = if command.limits & LeaderState::LIMIT_SAFETY == 0 { Input::Limits } else { Input::Safety };
         let mut filtered = Supply::default();
         if wanted.twist != command.twist {
-            filtered.add(acted, watched.expected.missed(watched.gradient, ahead, command.twist, point));
+            if let Some(expected) = watched.expected {
+                filtered.add(acted, expected.missed(watched.gradient, ahead, command.twist));
+            }
+            if let (Some(news), Some(dynamic)) = (&mut self.news, &self.settings.dynamic) {
+                news.sent(ahead, command.twist, dynamic.look_ahead, acted);
+            }
         }
         command.balanced = Some(self.monitor.observe(at.steady.0 as f64 * 1e-9, watched, filtered));
     }

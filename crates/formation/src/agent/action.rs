@@ -17,6 +17,8 @@ pub struct Action {
     pub cut_power: f64,
     /// Power that what moves around the robot adds besides.
     pub powers: Powers,
+    /// What of the Lyapunov function is theirs.
+    pub values: Values,
     /// The point that draws the robot, m; none while its attraction is suspended.
     pub attraction: Option<Vector2<f64>>,
     /// The place that the robot has chosen on the segment, or its goal point, whether it draws or not, m.
@@ -75,6 +77,24 @@ pub struct Powers {
     pub robots: f64,
     /// Obstacles.
     pub obstacles: f64,
+}
+
+/// What the potentials of other things hold of the Lyapunov function, m^2/s^2: Psi of each.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Values {
+    /// Psi of the leader's zones.
+    pub leader: f64,
+    /// Psi_hat of the other robots ahead.
+    pub robots: f64,
+    /// Psi_hat^ob of the obstacles.
+    pub obstacles: f64,
+}
+
+impl Values {
+    /// Of all of them.
+    pub fn sum(&self) -> f64 {
+        self.leader + self.robots + self.obstacles
+    }
 }
 
 /// What each input brought into the Lyapunov function from one tick to the next, m^2/s^2.

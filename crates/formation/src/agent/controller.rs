@@ -114,6 +114,14 @@ impl<T: Trench> Agent<T> {
         self.steer_at(around, &around.moment(since), robot)
     }
 
+    /// What [`Self::steer`] would say, which the robot does not do: it remembers nothing of it, and is not helped by remedies.
+    pub fn foreseen(&self, around: &Surroundings<'_>, robot: PointState, since: f64) -> Action {
+        let (settings, fragments) = (self.settings.clone(), self.fragments.clone());
+        let (remedy, encroachers, last, sensed) = (None, None, None, None);
+        let mut other = Self { settings, fragments, remedy, encroachers, last, sensed, ..*self };
+        other.steer(around, robot, since)
+    }
+
     #[inline(always)]
     fn steer_at(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: PointState) -> Action {
         let now = around.time + moment.since;
@@ -122,7 +130,7 @@ impl<T: Trench> Agent<T> {
         let leader = around.leader.map(|leader| leader.state.coasted(moment.since));
         let attracted = self.attract(around, moment, (robot.position, leader), step);
         self.arrived = attracted.deviation <= self.settings.seeking.settled_distance;
-        let Sum { steered, forces, powers, met } = self.law(around, moment, (robot, leader), &attracted);
+        let Sum { steered, forces, powers, values, met } = self.law(around, moment, (robot, leader), &attracted);
         let draws = attracted.attracting.draws;
         Action {
             steered,
@@ -130,6 +138,7 @@ impl<T: Trench> Agent<T> {
             cut: false,
             cut_power: 0.0,
             powers,
+            values,
             attraction: draws.then_some(met.unwrap_or(attracted.attracting.foot.position)),
             place: attracted.place,
             deviation: attracted.deviation,

@@ -1,7 +1,7 @@
 //! What a robot's law says, term by term.
 use super::attract::Attracted;
 use super::surroundings::Moment;
-use super::{Agent, Forces, Method, Powers, Surroundings};
+use super::{Agent, Forces, Method, Powers, Surroundings, Values};
 use crate::Vector2;
 use crate::curve::Foot;
 use crate::hull::{ApparentObstacle, Approach};
@@ -21,6 +21,7 @@ pub(super) struct Sum {
     pub(super) steered: Steered,
     pub(super) forces: Forces,
     pub(super) powers: Powers,
+    pub(super) values: Values,
     /// The point of attraction of (6.1), where that is the law, m.
     pub(super) met: Option<Vector2<f64>>,
 }
@@ -39,19 +40,44 @@ impl Sum {
     fn add(&mut self, by: By, push: Push, velocity: Vector2<f64>) {
         self.steered.acceleration += push.force;
         self.steered.lyapunov += push.value;
-        self.account(by, push, velocity);
+        self.account(by, push, push.force, velocity);
     }
 
-    /// Notes down a push that the acceleration has already.
+    /// Adds a push that a robot which slides at `sliding` relative to the segment (m/s) feels as `felt`: what was turned of it is no
+    /// gradient, and does work of its own.
     #[inline(always)]
-    fn account(&mut self, by: By, push: Push, velocity: Vector2<f64>) {
-        let (force, power) = match by {
-            By::Leader => (&mut self.forces.zoning, &mut self.powers.leader),
-            By::Robot => (&mut self.forces.robots, &mut self.powers.robots),
-            By::Obstacle => (&mut self.forces.obstacles, &mut self.powers.obstacles),
-        };
-        *force += push.force;
+    fn add_turned(
+        &mut self,
+        by: By,
+        (push, felt): (Push, Vector2<f64>),
+        velocity: Vector2<f64>,
+        sliding: Vector2<f64>,
+    ) {
+        self.steered.acceleration += felt;
+        self.steered.lyapunov += push.value;
+        self.account(by, push, felt, velocity);
+        if felt != push.force {
+            self.steered.lyapunov_rate += (felt - push.force).dot(&sliding);
+        }
+    }
+
+    /// Notes down a push that the acceleration has already, as the robot feels it.
+    #[inline(always)]
+    fn account(&mut self, by: By, push: Push, felt: Vector2<f64>, velocity: Vector2<f64>) {
+        let (force, power, value) = self.share(by);
+        *force += felt;
         *power += push.force.dot(&velocity);
+        *value += push.value;
+    }
+
+    #[inline(always)]
+    fn share(&mut self, by: By) -> (&mut Vector2<f64>, &mut f64, &mut f64) {
+        let Self { forces, powers, values, .. } = self;
+        match by {
+            By::Leader => (&mut forces.zoning, &mut powers.leader, &mut values.leader),
+            By::Robot => (&mut forces.robots, &mut powers.robots, &mut values.robots),
+            By::Obstacle => (&mut forces.obstacles, &mut powers.obstacles, &mut values.obstacles),
+        }
     }
 }
 
@@ -108,10 +134,11 @@ impl<T: Trench> Agent<T> {
         let Unpushed { acceleration, trench, lyapunov, lyapunov_rate } = law.unpushed(&seen);
         let steered = Steered { acceleration, lyapunov, lyapunov_rate };
         let mut sum = Sum { steered, forces: Forces { trench, ..Forces::default() }, ..Sum::default() };
+        let sliding = robot.velocity - still;
         for other in around.ahead {
             let there = other.coasted(moment.since);
             let push = Push::of_robot_ahead(&settings.zoning, position, there.position);
-            sum.add(By::Robot, self.sidestepped(push, target), there.velocity - still);
+            sum.add_turned(By::Robot, self.sidestepped(push, target), there.velocity - still, sliding);
         }
         if let Some(leader) = leader {
             let push = match attracted.led {
@@ -122,7 +149,7 @@ impl<T: Trench> Agent<T> {
         }
         for index in self.obstacles_near(around, moment.since, position) {
             let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, position));
-            sum.add(By::Obstacle, self.sidestepped(push, target), around.velocity(index) - still);
+            sum.add_turned(By::Obstacle, self.sidestepped(push, target), around.velocity(index) - still, sliding);
         }
         sum
     }
@@ -162,7 +189,7 @@ impl<T: Trench> Agent<T> {
         }
         sum.met = Some(point);
         let push = Push::of_leader(&settings.zoning, robot.position, leader.position);
-        sum.account(By::Leader, push, leader_seen.velocity);
+        sum.account(By::Leader, push, push.force, leader_seen.velocity);
         let frame = moment.motion.at(robot.position);
         for other in around.ahead {
             let there = other.coasted(moment.since);
@@ -221,15 +248,15 @@ impl<T: Trench> Agent<T> {
         }
     }
 
-    /// A push against the attraction, turned to the robot's right where it would only stop it.
-    fn sidestepped(&self, push: Push, target: Option<Vector2<f64>>) -> Push {
-        let Some(target) = target.filter(|_| self.settings.sidesteps) else { return push };
+    /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right.
+    fn sidestepped(&self, push: Push, target: Option<Vector2<f64>>) -> (Push, Vector2<f64>) {
+        let Some(target) = target.filter(|_| self.settings.sidesteps) else { return (push, push.force) };
         let (against, across) = (push.force.dot(&target), push.force.perp(&target));
         if against >= 0.0 || across.abs() > HEAD_ON * -against {
-            return push;
+            return (push, push.force);
         }
         let (sine, cosine) = libm::sincos(SIDESTEP);
         let [x, y] = [push.force.x, push.force.y];
-        Push { force: Vector2::new(cosine * x - sine * y, sine * x + cosine * y), ..push }
+        (push, Vector2::new(cosine * x - sine * y, sine * x + cosine * y))
     }
 }

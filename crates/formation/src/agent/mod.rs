@@ -16,7 +16,7 @@ mod settings;
 mod surroundings;
 
 pub(crate) use abreast::{Abreast, Side};
-pub use action::{Action, Driven, Forces, Powers, RemedyState, Work};
+pub use action::{Action, Driven, Forces, Powers, RemedyState, Values, Work};
 pub use controller::Agent;
 pub use settings::{AgentSettings, Encroaching, Method, Remedies};
 pub(crate) use surroundings::Moment;

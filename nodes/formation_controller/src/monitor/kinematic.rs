@@ -1,14 +1,30 @@
 //! V = (|e|^2 + phi^2)/2 of chapter 4.
 
-use super::{Expected, Function, Watched};
+use super::{Function, Watched};
 use trench_formation::Vector2;
 use trench_formation::agent::RemedyState;
-use trench_formation::kinematics::Pose;
+use trench_formation::kinematics::{Pose, Twist};
 use trench_formation::laws::{GoalMotion, Tracked};
 use trench_formation::stability::{Input, Supply};
 
 /// Nearer than this (m) the direction to the goal point is noise.
 const NEAR: f64 = 0.01;
+
+/// What a law expects the robot to do up to the next tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Expected {
+    twist: Twist,
+    /// s
+    duration: f64,
+}
+
+impl Expected {
+    /// What it brings into V, with the gradient by position and heading, that the robot at `pose` follows `sent` instead.
+    pub(crate) fn missed(&self, (along, turning): (Vector2<f64>, f64), pose: Pose, sent: Twist) -> f64 {
+        let (v, omega) = (sent.v - self.twist.v, sent.omega - self.twist.omega);
+        self.duration * (v * along.dot(&pose.heading()) + omega * turning)
+    }
+}
 
 /// What a law of chapter 4 says at `pose`, for `duration` (s). `wanted` is the velocity from which phi is measured, with its
 /// derivative by the position, 1/s: (e, 1) but for laws that feed the goal's velocity forward.
@@ -38,7 +54,6 @@ pub(crate) fn watched(
         gradient: (gradient, phi),
         news: Supply::default(),
         supply,
-        expected: Expected::Twist(tracked.twist, duration),
-        jumped: false,
+        expected: Some(Expected { twist: tracked.twist, duration }),
     }
 }

@@ -3,11 +3,13 @@
 mod conditions;
 mod energy;
 mod kinematic;
+mod news;
 mod recursion;
 
 pub(crate) use conditions::Violation;
-pub(crate) use energy::{Driving, Expected, News};
-pub(crate) use kinematic::watched;
+pub(crate) use energy::Driving;
+pub(crate) use kinematic::{Expected, watched};
+pub(crate) use news::News;
 pub(crate) use recursion::Recursion;
 
 use crate::dynamic::DynamicLaw;
@@ -78,10 +80,8 @@ pub(crate) struct Watched {
     pub(crate) news: Supply,
     /// What the inputs bring in up to the next tick.
     pub(crate) supply: Supply,
-    /// What the law expects the robot to do.
-    pub(crate) expected: Expected,
-    /// Whether V jumped for a reason that is no input, like a transit.
-    pub(crate) jumped: bool,
+    /// What a law of chapter 4 expects the robot to do; of a dynamic law the next tick tells ([`News`]).
+    pub(crate) expected: Option<Expected>,
 }
 
 /// What the monitor remembers.
@@ -108,7 +108,7 @@ impl Monitor {
 
     /// Judges a tick at `time` (s); `filtered` is what limits and the safety filter do up to the next one.
     pub(crate) fn observe(&mut self, time: f64, watched: &Watched, filtered: Supply) -> Balanced {
-        let anew = self.function != Some(watched.function) || watched.jumped;
+        let anew = self.function != Some(watched.function);
         // What a remedy does to V has no bound: it is there to lead out of a minimum.
         if anew || watched.function.remedy != RemedyState::None {
             self.restart();

@@ -3,7 +3,9 @@
 use crate::bench::{Bench, LAWS, PERIOD, formation, leader, make};
 use trench_formation::kinematics::Pose;
 use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
-use trench_msgs::msg::{ApparentObstacle, ApparentObstacleArray, LeaderState, Obstacle, Point2, RobotState, Stability};
+use trench_msgs::msg::{
+    ApparentObstacle, ApparentObstacleArray, Assignment, LeaderState, Member, Obstacle, Point2, RobotState, Stability,
+};
 
 /// robot1 under `law`, a quarter turn away from its goal and off its segment.
 fn under(law: &str) -> Bench {
@@ -155,6 +157,78 @@ fn a_robot_in_zone_1_is_reported_within_a_second() {
     }
     let delay = told.unwrap() - entered.unwrap();
     assert!(delay <= 1.0, "{delay} s");
+}
+
+/// A tick of robot1, third in a chain: robot2, which it follows, rests in its neutral zone, and robot3 is at `other` (m) and says that it
+/// rests.
+fn third(bench: &mut Bench, other: [f64; 2]) {
+    for (robot, rank, [x, y]) in [("robot2", 2, [1.35, 0.9]), ("robot3", 1, other)] {
+        let mut state = LeaderState { epoch: 5, formation_hash: 7, rank, ..Default::default() };
+        state.header.stamp = bench.times().ros.into();
+        state.point = Point2 { x, y };
+        bench.send(&format!("/{robot}/leader_state"), &state);
+    }
+    bench.drive(1);
+}
+
+/// A.18 has the robots ahead and the obstacles at rest: what they do otherwise than they say brings energy in, as much as their potentials
+/// grow by it, and is no violation. Nor does it hide one: what else moves the robot is still told within a second.
+#[test]
+fn robots_ahead_that_come_otherwise_and_hulls_that_appear_are_inputs_and_hide_nothing() {
+    // Ends of fragments would move besides.
+    let overrides = [("team", "[robot1, robot2, robot3]"), ("law", "chain"), ("encroaching", "nothing")];
+    let mut bench = Bench::of(make(&overrides).unwrap());
+    formation(&mut bench);
+    let member = |robot: &str, rank, leader: &str| Member {
+        robot: robot.to_owned(),
+        rank,
+        leader: leader.to_owned(),
+        ..Default::default()
+    };
+    let members = vec![member("robot3", 1, ""), member("robot2", 2, "robot3"), member("robot1", 3, "robot2")];
+    bench.send("/assignment", &Assignment { epoch: 5, formation_hash: 7, members, ..Default::default() });
+    bench.pose = Pose::new(1.0, 0.9, 0.0);
+    (0..30).for_each(|_| third(&mut bench, [1.05, 1.5]));
+    let quiet = said(&bench).pop().unwrap();
+
+    // From the side robot3 comes into zone 2, faster than robot1 gives way.
+    let mut gap = 0.4;
+    while gap > 0.21 {
+        gap -= 0.6 * PERIOD;
+        third(&mut bench, [1.05, 0.9 + gap]);
+    }
+    (0..3).for_each(|_| third(&mut bench, [1.05, 0.9 + gap]));
+    let pushed = said(&bench).pop().unwrap();
+    assert!(pushed.value > quiet.value + 0.02 && pushed.term == "robots", "{quiet:?} {pushed:?}");
+    assert!(said(&bench).iter().all(|one| one.holds && one.value <= one.bound), "{:?}", said(&bench));
+
+    // A hull stands beside it that nobody knew of.
+    (0..60).for_each(|_| third(&mut bench, [1.05, 1.5]));
+    let before = said(&bench).pop().unwrap();
+    let [x, y] = [bench.pose.x + 0.05, bench.pose.y - 0.17];
+    let hull =
+        [[x - 0.1, y], [x - 0.1, y - 0.1], [x + 0.1, y - 0.1], [x + 0.1, y]].map(|[x, y]| Point2 { x, y }).to_vec();
+    bench.obstacles = ApparentObstacleArray {
+        obstacles: vec![ApparentObstacle { id: 3, hull: hull.clone(), members: vec![3], ..Default::default() }],
+        members: vec![Obstacle { id: 3, polygon: hull, ..Default::default() }],
+        ..Default::default()
+    };
+    (0..5).for_each(|_| third(&mut bench, [1.05, 1.5]));
+    let beside = said(&bench).pop().unwrap();
+    assert!(beside.value > before.value + 0.01 && beside.term == "obstacles", "{before:?} {beside:?}");
+    assert!(said(&bench).iter().all(|one| one.holds && one.value <= one.bound), "{:?}", said(&bench));
+
+    // Carried off while robot3 comes again.
+    let (began, mut gap) = (bench.seconds, 0.5);
+    while diagnosed(&bench).0 < 2 && bench.seconds < began + 2.0 {
+        gap = f64::max(gap - 0.3 * PERIOD, 0.21);
+        let other = [bench.pose.x + 0.05, bench.pose.y + gap];
+        third(&mut bench, other);
+        bench.pose.y += 0.6 * PERIOD;
+        bench.pose.x -= 0.6 * PERIOD;
+    }
+    let (elapsed, (level, text)) = (bench.seconds - began, diagnosed(&bench));
+    assert!(elapsed <= 1.0 && level == 2 && text.starts_with("robot1: (7.13): V = "), "{elapsed} s: {text}");
 }
 
 /// The input that the monitor names as the greatest of the last ticks.
