@@ -104,7 +104,7 @@ mod tests {
     }
 
     fn seen(obstacles: &[Obstacle], robot: PointState) -> Vec<Obstacle> {
-        let mut knowledge = Knowledge::new(obstacles, Sight { range: 5.0, piece: 0.5 });
+        let mut knowledge = Knowledge::new(obstacles, Sight { range: 5.0, piece: 0.5 }).unwrap();
         knowledge.look(&[robot]).unwrap();
         knowledge.known().to_vec()
     }
@@ -126,7 +126,7 @@ mod tests {
     #[test]
     fn what_was_seen_is_kept() {
         let disc = Obstacle { id: 1, shape: Shape::new(&[Vector2::zeros()], 1.0).unwrap() };
-        let mut knowledge = Knowledge::new(&[disc], Sight { range: 5.0, piece: 0.5 });
+        let mut knowledge = Knowledge::new(&[disc], Sight { range: 5.0, piece: 0.5 }).unwrap();
         assert!(knowledge.look(&[at(3.0, 0.0)]).unwrap());
         let first = knowledge.known().to_vec();
         assert!(!knowledge.look(&[at(3.0, 0.0)]).unwrap(), "nothing new");
