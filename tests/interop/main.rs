@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its support too")]
 
 mod cameras;
+mod laws;
 mod markers;
 mod operator;
 mod support;
