@@ -30,7 +30,7 @@ function draw() {
   if (changed.has("all") || time - cardsDrawn >= CARDS) {
     cardsDrawn = time;
     drawCards();
-    drawLayers(draw);
+    drawLayers(redraw);
   }
   changed.clear();
   Object.assign(document.body.dataset, {
