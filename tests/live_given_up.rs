@@ -62,9 +62,9 @@ impl<'a> UnderWay<'a> {
     fn kill(&self, name: &str, life: usize) {
         let begins = format!("[{name}-");
         let pid = self.wait_for(&format!("start {life} of {name}"), |log| {
-            let starts =
+            let mut starts =
                 log.lines().filter(|line| line.contains(&begins) && line.contains("process started with pid ["));
-            let (_, pid) = starts.skip(life).next()?.rsplit_once('[')?;
+            let (_, pid) = starts.nth(life)?.rsplit_once('[')?;
             pid.strip_suffix(']')?.parse().ok()
         });
         kill_process(Pid::from_raw(pid).unwrap(), Signal::KILL).unwrap();
