@@ -37,6 +37,13 @@ fn what_is_shipped_holds() {
 
 #[test]
 fn what_fails_is_named_with_its_equation() {
+    judged("pursuit.txt", &["launch/pursuit.launch.yaml"], 0);
+    judged("chain.txt", &["launch/chain.launch.yaml"], 0);
+    judged(
+        "queue.txt",
+        &["config/formations/square.yaml", "config/formations/column.yaml", "tests/check/queue.yaml"],
+        0,
+    );
     judged("crowded.txt", &["tests/check/crowded.yaml", "tests/check/turning.yaml"], 1);
     judged("turning.json", &["tests/check/turning.yaml", "--json"], 1);
 }

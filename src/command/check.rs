@@ -1,5 +1,6 @@
 //! `trench check`: configuration against the theory, before anything moves.
 
+mod bed;
 mod gather;
 mod kind;
 
@@ -8,7 +9,7 @@ use clap::Parser;
 use gather::{CheckError, Gathered, gather};
 use kind::kind;
 use std::process::ExitCode;
-use trench_check::{Report, Verdict, controller, formation, scenario};
+use trench_check::{Report, Verdict, controller, formation, gaps, scenario};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -51,13 +52,16 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 }
 
 fn judge(arguments: &Arguments) -> Result<Report, CheckError> {
-    let Gathered { controllers, formations, scenarios, team } = gather(&arguments.words)?;
+    let Gathered { controllers, formations, scenarios, team, fields } = gather(&arguments.words)?;
     let mut verdicts: Vec<Verdict> = Vec::new();
     for one in &controllers {
         verdicts.extend(controller(one)?);
     }
     for (name, plan) in &formations {
         verdicts.extend(formation(name, plan, &team));
+    }
+    for (name, standing, passing) in &fields {
+        verdicts.extend(gaps(name, standing, passing));
     }
     for (name, one) in &scenarios {
         verdicts.extend(scenario(name, one));

@@ -3,15 +3,19 @@
 //! Everything here takes what has been read (parameters, plans, scenarios) and gives [`Verdict`]s: what was looked at, whether it holds,
 //! the equation that decides. Nothing reads a file.
 
+mod approach;
 mod chain;
 mod controller;
 mod direction;
 mod gains;
+mod gaps;
+mod growth;
 mod limits;
 mod potential;
 mod queue;
 mod report;
 mod scenario;
+mod standing;
 mod team;
 mod verdict;
 mod zones;
@@ -19,10 +23,12 @@ mod zones;
 pub use chain::{ChainOfRobots, chain};
 pub use controller::{Controller, controller};
 pub use direction::{Approach, direction};
+pub use gaps::{Passing, gaps};
 pub use potential::potential;
 pub use queue::formation;
 pub use report::Report;
 pub use scenario::scenario;
-pub use team::{Team, team};
+pub use standing::Standing;
+pub use team::{Along, Start, Team, team};
 pub use verdict::Verdict;
 pub use zones::zones;

@@ -1,7 +1,9 @@
 //! A formation against the robots that take it up.
 
+use crate::approach::approaches;
+use crate::growth::growth;
 use crate::verdict::number;
-use crate::{ChainOfRobots, Team, Verdict, chain};
+use crate::{Team, Verdict};
 use trench_formation::Vector2;
 use trench_formation::assignment::robots_per_queue;
 use trench_plan::{Frame, Plan, QueuePlan};
@@ -20,7 +22,8 @@ pub fn formation(subject: &str, plan: &Plan, team: &Team) -> Vec<Verdict> {
         verdicts.push(field(subject, plan, team));
     }
     verdicts.extend(motion(subject, plan, team));
-    verdicts.extend(plan.queues.iter().filter_map(|queue| growth(subject, queue, team)));
+    verdicts.extend(approaches(subject, plan, team));
+    verdicts.extend(plan.queues.iter().filter_map(|queue| growth(subject, plan, queue, team)));
     verdicts
 }
 
@@ -217,16 +220,4 @@ fn are_parallel(plan: &Plan) -> bool {
     });
     let Some(first) = tangents.next() else { return true };
     tangents.all(|tangent| first.perp(&tangent).abs() < PARALLEL && first.dot(&tangent) > 0.0)
-}
-
-/// The chain bound, for robots that start within the queue's tolerance of a place: nobody may reach zone 1, so no error in the
-/// distance to the one ahead may exceed spacing - rho_underbar.
-fn growth(subject: &str, queue: &QueuePlan, team: &Team) -> Option<Verdict> {
-    let ([rho_underbar, rho_hat, rho, ..], gains) = (team.zones?, team.chain_gains?);
-    let robots = queue.places.len();
-    let spacing = queue.chain.map_or(rho_hat, |chain| chain.spacing).min(rho);
-    let instead_of = (team.law != "queue").then_some(team.law.as_str());
-    let of =
-        ChainOfRobots { instead_of, robots, gains, initial_error: queue.tolerance, tolerance: spacing - rho_underbar };
-    (robots > 1).then(|| chain(&format!("{subject}, queue {}", queue.name), &of))
 }

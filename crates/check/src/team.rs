@@ -1,6 +1,7 @@
 //! What is known of the robots, from a controller's parameters.
 
 use trench_config::{ConfigError, Parameters};
+use trench_formation::Vector2;
 
 /// What a formation needs to know of the robots that take it up; lengths in m.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,36 @@ pub struct Team {
     pub chain_gains: Option<(f64, f64)>,
     /// The law, by its name.
     pub law: String,
+    /// m/s^2, of the points that dynamic laws steer.
+    pub acceleration: f64,
+    /// How followers approach their segments, under the law along directions of attraction.
+    pub along: Option<Along>,
+    /// Where the followers of each formation in the map begin; empty where nobody knows.
+    pub starts: Vec<Start>,
+}
+
+/// Directions of attraction (6.3) of followers under law (6.1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// In the segment's frame; none: across the segment, to the nearest point.
+    pub direction: Option<Vector2<f64>>,
+    /// k, 1/s.
+    pub damping: f64,
+    /// m/s, the fastest that a robot may be when it is given a segment.
+    pub speed: f64,
+}
+
+/// A robot at rest before a run, and what it will follow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// Its name.
+    pub robot: String,
+    /// Index of its queue.
+    pub queue: usize,
+    /// In its chain, from 1.
+    pub rank: usize,
+    /// m, frame `map`.
+    pub position: Vector2<f64>,
 }
 
 /// Reads a team from the parameters of one formation_controller.
@@ -49,7 +80,18 @@ pub fn team(parameters: &Parameters, robots: Option<usize>) -> Result<Team, Conf
         zones,
         chain_gains: if is_chained || law == "queue" { chain_gains(parameters)? } else { None },
         law: law.to_owned(),
+        acceleration: parameters.f64("motion.acceleration")?,
+        along: if law == "zoned" { Some(along(parameters)?) } else { None },
+        starts: Vec::new(),
     })
+}
+
+fn along(parameters: &Parameters) -> Result<Along, ConfigError> {
+    let direction = match *parameters.f64_list("zoned.direction")? {
+        [x, y] if x != 0.0 || y != 0.0 => Some(Vector2::new(x, y)),
+        _ => None,
+    };
+    Ok(Along { direction, damping: parameters.f64("damping")?, speed: parameters.f64("motion.speed")? })
 }
 
 /// Phi''(0) and k + c; none for trenches without a curvature at their bottom.
@@ -61,6 +103,7 @@ fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigErro
     let stiffness = match parameters.str("trench.shape")? {
         "hyperbolic" | "quadratic" | "saturated" => alpha / a,
         "square_root" => 2.0,
+        "critical" => 0.25 * parameters.f64("damping")? * parameters.f64("damping")?,
         _ => return Ok(None),
     };
     Ok(Some((stiffness, parameters.f64("damping")? + parameters.f64("leader_damping")?)))

@@ -46,7 +46,15 @@ fn potentials_are_admissible_or_not() {
 
 #[test]
 fn chains_are_bounded_rank_by_rank() {
-    let of = ChainOfRobots { instead_of: None, robots: 4, gains: (2.0, 3.0), initial_error: 0.02, tolerance: 0.06 };
+    let of = ChainOfRobots {
+        instead_of: None,
+        robots: 4,
+        gains: (2.0, 3.0),
+        initial_error: 0.02,
+        tolerance: 0.06,
+        setting_out: 0.0,
+        acceleration: None,
+    };
     check(
         &chain("line", &of),
         true,
@@ -76,6 +84,8 @@ fn long_chains_are_computed_to_their_end() {
         gains: (2.0, 3.0),
         initial_error: 0.02,
         tolerance,
+        setting_out: 0.0,
+        acceleration: None,
     };
     for robots in [13, 30] {
         let verdict = chain("line", &of(robots, 1.0));
@@ -102,6 +112,8 @@ fn what_the_bound_is_not_about_is_said() {
                 gains: (2.5, 2.5),
                 initial_error: 0.05,
                 tolerance: 0.14,
+                setting_out: 0.0,
+                acceleration: None,
             },
         ),
         true,
@@ -161,6 +173,9 @@ fn chains_on_segments() {
         zones: Some([0.20, 0.26, 0.34, 0.45, 1.2]),
         chain_gains: Some((1.0, 2.0)),
         law: "chain".to_owned(),
+        acceleration: 0.45,
+        along: None,
+        starts: Vec::new(),
     };
     let judged = |text: &str, team: &Team| formation("f", &trench_plan::parse("f.yaml", text).unwrap(), team);
     let one = |verdicts: &[Verdict], name: &str| verdicts.iter().find(|verdict| verdict.check == name).unwrap().clone();

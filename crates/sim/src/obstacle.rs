@@ -56,6 +56,12 @@ impl Obstacle {
         self.velocity
     }
 
+    /// The way that it goes, if it goes one.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_ref()
+    }
+
     /// Centre and radius of a circle around it, m.
     pub(crate) fn circle(&self) -> ([f64; 2], f64) {
         (self.centre, self.reach)

@@ -37,6 +37,13 @@ impl Path {
         Self { places, speed, ending, wait, offset: [0.0; 2], next, backwards: false }
     }
 
+    /// All places in their order, m from the beginning: it goes straight from one to the next, and never elsewhere.
+    #[must_use]
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        let back = (self.ending == Ending::Round).then_some([0.0; 2]);
+        self.places.iter().copied().chain(back).collect()
+    }
+
     /// Goes on for `dt` seconds; gives how far it went, m, and how fast it goes, m/s.
     pub(crate) fn advance(&mut self, dt: f64) -> ([f64; 2], [f64; 2]) {
         if self.wait > 0.0 {

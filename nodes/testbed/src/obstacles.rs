@@ -22,7 +22,10 @@ use trench_sim::{Ending, Obstacle, Path, camera};
 const MOST_CORNERS: usize = 1000;
 
 /// Reads the text of such a file; `file` names it in errors. Obstacles are numbered from 1 in its order.
-pub(crate) fn parse(file: &str, text: &str) -> Result<Vec<Obstacle>, ConfigError> {
+///
+/// # Errors
+/// The first thing that is wrong, with file, line, key and remedy.
+pub fn parse(file: &str, text: &str) -> Result<Vec<Obstacle>, ConfigError> {
     let root = yaml::parse(file, text)?;
     let top = root.map()?;
     let mut obstacles = Vec::new();

@@ -1,10 +1,11 @@
 //! Reading the files, and those that they lead to.
 
 use super::super::launch::name_and_value;
+use super::bed::{Field, field, starts};
 use super::kind;
 use super::kind::Kind;
 use std::path::{Path, PathBuf};
-use trench_check::{Controller, Team, team};
+use trench_check::{Controller, Passing, Standing, Start, Team, team};
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::Files;
@@ -37,10 +38,14 @@ pub(super) struct Gathered {
     pub(super) scenarios: Vec<(String, Scenario)>,
     /// The robots that take the formations up.
     pub(super) team: Team,
+    /// By file.
+    pub(super) fields: Vec<(String, Vec<Standing>, Passing)>,
 }
 
 const CONTROLLER: &str = "formation_controller";
 const ASSIGNMENT: &str = "leader_assignment";
+const MAPPER: &str = "obstacle_mapper";
+const TESTBED: &str = "testbed";
 
 /// Reads all that `words` name: files, and `NAME:=VALUE`.
 pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
@@ -48,6 +53,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
     let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
     let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
+    let (mut fields, mut begin) = (Vec::new(), Vec::new());
     let mut parameter_files: Vec<(String, String)> = Vec::new();
     // With the arguments that scenarios give them.
     let mut launches: Vec<(PathBuf, Vec<(String, String)>)> = Vec::new();
@@ -75,20 +81,22 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
         unknown.retain(|name| !known.contains(name));
         // What the command line says comes later, and wins.
         let launched = launch(&file, own.iter().chain(arguments.iter().filter(|(name, _)| known.contains(name))))?;
-        controllers.extend(launched.controllers);
+        fields.extend(launched.field()?);
+        begin.extend(launched.starts()?);
         formations.extend(launched.formations);
         robots = launched.robots.or(robots);
+        controllers.extend(launched.controllers);
     }
     if let Some(name) = unknown.first() {
         return Err(CheckError::Argument((*name).clone()));
     }
     let default = from_files(&parameter_files)?;
     let known = controllers.first().map_or(&default.parameters, |controller| &controller.parameters);
-    let team = team(known, robots)?;
+    let team = Team { starts: begin, ..team(known, robots)? };
     if !parameter_files.is_empty() {
         controllers.push(default);
     }
-    Ok(Gathered { controllers, formations, scenarios, team })
+    Ok(Gathered { controllers, formations, scenarios, team, fields })
 }
 
 /// The controller that parameter files describe: in any namespace, with defaults for what they leave out.
@@ -100,16 +108,38 @@ fn from_files(files: &[(String, String)]) -> Result<Controller, CheckError> {
     Ok(Controller { name: names.join(" + "), parameters })
 }
 
+#[derive(Default)]
 struct Launched {
     controllers: Vec<Controller>,
     formations: Vec<(String, Plan)>,
     robots: Option<usize>,
+    assignment: Option<Parameters>,
+    mapper: Option<Parameters>,
+    bed: Option<Parameters>,
+}
+
+impl Launched {
+    /// What stands in the field of the test bed, if a mapper makes hulls of it for controllers.
+    fn field(&self) -> Result<Option<Field>, CheckError> {
+        match (&self.bed, &self.mapper, self.controllers.first()) {
+            (Some(bed), Some(mapper), Some(one)) => field(bed, mapper, &one.parameters),
+            _ => Ok(None),
+        }
+    }
+
+    /// Where the robots of the test bed begin, and whom they will follow.
+    fn starts(&self) -> Result<Vec<Start>, CheckError> {
+        match (&self.bed, &self.assignment, self.controllers.first(), self.formations.first()) {
+            (Some(bed), Some(assignment), Some(one), Some((_, plan))) => starts(bed, assignment, &one.parameters, plan),
+            _ => Ok(Vec::new()),
+        }
+    }
 }
 
 /// The controllers and the formation that a launch file starts.
 fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>) -> Result<Launched, CheckError> {
     let plan = trench_harness::plan(file, &arguments.cloned().collect())?;
-    let mut launched = Launched { controllers: Vec::new(), formations: Vec::new(), robots: None };
+    let mut launched = Launched::default();
     for process in &plan.processes {
         match program(process) {
             Some(CONTROLLER) => {
@@ -124,15 +154,23 @@ fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>
                     let plan = trench_plan::parse(path, &Disk.read("formation_file", path)?)?;
                     launched.formations.push((readable(path), plan));
                 }
+                launched.assignment = Some(parameters);
             }
+            Some(MAPPER) => launched.mapper = one(MAPPER, process)?,
+            Some(TESTBED) => launched.bed = one(TESTBED, process)?,
             _ => {}
         }
     }
     Ok(launched)
 }
 
+/// The parameters of a process that is one node.
+fn one(node: &'static str, process: &Process) -> Result<Option<Parameters>, CheckError> {
+    Ok(parameters(node, process)?.pop().map(|(_, parameters)| parameters))
+}
+
 /// A path without detours, from the present folder on if it lies there.
-fn readable(path: &str) -> String {
+pub(super) fn readable(path: &str) -> String {
     let Ok(absolute) = std::fs::canonicalize(path) else { return path.to_owned() };
     let here = std::env::current_dir().and_then(std::fs::canonicalize);
     match here.ok().and_then(|here| absolute.strip_prefix(here).ok().map(Path::to_owned)) {
