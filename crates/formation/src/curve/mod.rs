@@ -21,6 +21,7 @@ mod quadrature;
 mod shape;
 mod simple;
 mod spline;
+mod transit;
 mod warm;
 mod within;
 
@@ -31,6 +32,7 @@ pub use error::CurveError;
 pub use nearest::NearestSet;
 pub use placed::Placed;
 pub use shape::CurveShape;
+pub use transit::Transit;
 pub use warm::Warm;
 
 use nalgebra::Vector2;

@@ -112,7 +112,7 @@ impl<'a> Placed<'a> {
         self.map_from_curve.inverse_transform_point(&point.into()).coords
     }
 
-    fn to_map(self, foot: Foot) -> Foot {
+    pub(super) fn to_map(self, foot: Foot) -> Foot {
         Foot { point: self.point_to_map(foot.point), tangent: self.map_from_curve.rotation * foot.tangent, ..foot }
     }
 }
