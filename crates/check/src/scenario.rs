@@ -11,7 +11,7 @@ use trench_formation::hull::Outline;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
 use trench_formation::simulate::ChainScenario;
-use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
 
 /// Trenches are looked at up to this distance, m.
@@ -29,8 +29,18 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 GoalLaw::Conventional(_) | GoalLaw::Velocity(_) => None,
             });
             laws.flat_map(|(name, law)| {
-                let finding = format!("k = {}: V' = -k |r'|^2", number(law.damping.coefficient));
-                let holds = law.damping.coefficient > 0.0;
+                let (finding, holds) = match law.damping {
+                    AnyDamping::Constant(damping) => {
+                        (format!("k = {}: V' = -k |r'|^2", number(damping.coefficient)), damping.coefficient > 0.0)
+                    }
+                    AnyDamping::Hyperbolic(damping) | AnyDamping::Saturated(SaturatedDamping(damping)) => (
+                        format!(
+                            "k(d) is 0 at the goal point alone and up to {}: V' = -k(d) |r'|^2 < 0 on every way there",
+                            number(law.damping.coefficient(RANGE))
+                        ),
+                        damping.alpha > 0.0,
+                    ),
+                };
                 [
                     potential(&name, &law.trench, RANGE),
                     Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)"),

@@ -4,16 +4,19 @@ use crate::expression_remedy;
 use trench_config::{ConfigError, Parameters};
 use trench_expression::Expression;
 use trench_formation::trench::{
-    AnyTrench, Conic, Hyperbolic, Meaning, Quadratic, Saturated, SlopeTable, SquareRoot, Written,
+    AnyDamping, AnyTrench, Conic, ConstantDamping, CriticallyDamped, Hyperbolic, Meaning, Quadratic, Saturated,
+    SlopeTable, SquareRoot, Written,
 };
 
 /// Trenches are looked at up to this distance, m.
 pub const TRENCH_RANGE: f64 = 100.0;
 
 /// The names `trench.shape` may have.
-pub const TRENCH_SHAPES: &str = "one of: hyperbolic, quadratic, saturated, conic, square_root, table, potential, slope";
+pub const TRENCH_SHAPES: &str =
+    "one of: hyperbolic, quadratic, saturated, conic, square_root, critical, table, potential, slope";
 
-/// The trench that `trench.shape` names: a pull of up to `trench.alpha` (m/s^2), a bottom of width `trench.a` (m); or what a person
+/// The trench that `trench.shape` names: a pull of up to `trench.alpha` (m/s^2), a bottom of width `trench.a` (m); or that which the law's
+/// `damping` damps critically (Corollary A.9.1, Example A.9.1); or what a person
 /// wrote: `trench.formula` as Phi (potential) or phi (slope), or phi in the rows x, phi of `trench.table`.
 ///
 /// # Errors
@@ -26,6 +29,10 @@ pub fn trench_from_parameters(parameters: &Parameters) -> Result<AnyTrench, Conf
         "saturated" => AnyTrench::Saturated(Saturated { stiffness: alpha / a, edge: a }),
         "conic" => AnyTrench::Conic(Conic { alpha }),
         "square_root" => AnyTrench::SquareRoot(SquareRoot),
+        "critical" => {
+            let constant = ConstantDamping { coefficient: parameters.f64("damping")? };
+            AnyTrench::Critical(CriticallyDamped(AnyDamping::Constant(constant)))
+        }
         "table" => AnyTrench::Table(table(parameters)?),
         "potential" => AnyTrench::Written(Box::new(written(parameters, Meaning::Potential)?)),
         "slope" => AnyTrench::Written(Box::new(written(parameters, Meaning::Slope)?)),

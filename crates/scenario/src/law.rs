@@ -3,7 +3,7 @@
 use trench_formation::avoidance::{GoalPotential, VelocityPotential};
 use trench_formation::kinematics::{PointState, Polar, Twist};
 use trench_formation::laws::{Direct, Family, GoalMotion, GoalTracking, Nominal, PointLaw, Robust, Steered};
-use trench_formation::trench::{AnyTrench, ConstantDamping};
+use trench_formation::trench::{AnyDamping, AnyTrench};
 
 /// A law of chapter 4.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +32,8 @@ impl PointLaw for ChosenLaw {
 /// What draws a double integrator to its goal point: the law of chapter 5, or those that 5.5 compares it with.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GoalLaw {
-    /// (5.1), and (5.3) for goal points at rest.
-    Trench(GoalTracking<AnyTrench, ConstantDamping>),
+    /// (5.1), (5.2) with a damping that depends on the distance, and (5.3) for goal points at rest.
+    Trench(GoalTracking<AnyTrench, AnyDamping>),
     /// (5.4).
     Conventional(GoalPotential),
     /// (5.5).

@@ -4,7 +4,7 @@ use crate::{ChosenLaw, GoalLaw};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Course};
 use trench_formation::curve::CurveShape;
-use trench_formation::kinematics::{PointState, Pose};
+use trench_formation::kinematics::{Hilare, PointState, Pose};
 use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
 use trench_formation::stability::TwoGainLaw;
 use trench_formation::trench::AnyTrench;
@@ -105,15 +105,17 @@ pub struct RegulatingCase {
     pub law: ChosenLaw,
 }
 
-/// Double integrators with goal points on a wave.
+/// Double integrators, or robots that feedback makes double integrators of, with goal points on a wave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GoalTracking {
     /// The goal points.
     pub goals: WaveGoals,
     /// The laws.
     pub cases: Vec<GoalCase>,
-    /// Robots of each case.
+    /// Robots of each case; of Hilare robots their hands.
     pub robots: Vec<PointState>,
+    /// Headings of their bodies at the start, rad.
+    pub headings: Vec<f64>,
 }
 
 /// One of several laws.
@@ -125,6 +127,8 @@ pub struct GoalCase {
     pub label: String,
     /// Its law.
     pub law: GoalLaw,
+    /// The body that the law drives through T1 and T2 (3.1.1); none: the robots are double integrators (3.4).
+    pub plant: Option<Hilare>,
 }
 
 /// A chain along directions of attraction.

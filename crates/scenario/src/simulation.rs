@@ -1,14 +1,14 @@
 //! Running a scenario.
 
 use crate::law::ChosenLaw;
-use crate::{ComparedCase, GoalLaw, Scenario, Task};
+use crate::{ComparedCase, GoalCase, GoalLaw, Scenario, Task};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Trip};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
-use trench_formation::kinematics::PointState;
+use trench_formation::kinematics::{HandState, HilareState, PointState, Twist};
 use trench_formation::laws::Steered;
 use trench_formation::simulate::{
-    ChainSimulation, GoalTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
+    ChainSimulation, GoalTeam, HilareTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
 };
 use trench_formation::trench::AnyTrench;
 
@@ -42,7 +42,7 @@ pub struct Sample {
     pub acceleration: Vector2<f64>,
     /// rad: of the body, or of the velocity.
     pub heading: f64,
-    /// m/s, forward.
+    /// m/s, forward; of Hilare robots v, while position and velocity are those of the hand.
     pub speed: f64,
     /// rad/s.
     pub turn_rate: f64,
@@ -60,9 +60,15 @@ pub struct Sample {
 
 enum Running {
     Regulating(Vec<Regulation<ChosenLaw>>),
-    Goals(WaveGoals, Vec<(GoalTeam, GoalLaw)>),
+    Goals(WaveGoals, Vec<(Team, GoalLaw)>),
     Directed(Box<ZonedChain<AnyTrench>>),
     Nearest(Box<ChainSimulation<AnyTrench>>, Vec<Trip<AnyGuide>>),
+}
+
+/// Robots that track goal points.
+enum Team {
+    Points(GoalTeam),
+    Bodies(HilareTeam),
 }
 
 /// A scenario under way.
@@ -93,8 +99,13 @@ impl Simulation {
                 Running::Regulating(robots.collect())
             }
             Task::GoalTracking(task) => {
-                let team = || GoalTeam::new(task.robots.clone(), timing.integration, timing.step);
-                Running::Goals(task.goals, task.cases.iter().map(|case| (team(), case.law.clone())).collect())
+                let hands = task.robots.iter().zip(&task.headings);
+                let hands: Vec<HandState> = hands.map(|(&hand, &theta)| HandState { hand, theta }).collect();
+                let team = |case: &GoalCase| match case.plant {
+                    Some(body) => Team::Bodies(HilareTeam::new(body, &hands, timing.integration, timing.step)),
+                    None => Team::Points(GoalTeam::new(task.robots.clone(), timing.integration, timing.step)),
+                };
+                Running::Goals(task.goals, task.cases.iter().map(|case| (team(case), case.law.clone())).collect())
             }
             Task::Directed(task) => {
                 Running::Directed(Box::new(ZonedChain::new(task.chain.clone(), timing.integration, timing.step)))
@@ -132,7 +143,11 @@ impl Simulation {
             Running::Regulating(robots) => robots.iter_mut().for_each(Regulation::step),
             Running::Goals(goals, teams) => {
                 for (team, law) in teams {
-                    team.step(|index, time| goals.at(index, time), |robot, goal| law.steer(robot, goal));
+                    let (goal, law) = (|index, time| goals.at(index, time), |robot, goal| law.steer(robot, goal));
+                    match team {
+                        Team::Points(team) => team.step(goal, law),
+                        Team::Bodies(team) => team.step(goal, law),
+                    }
                 }
             }
             Running::Directed(chain) => chain.step(),
@@ -161,12 +176,23 @@ impl Simulation {
         match &self.running {
             Running::Regulating(robots) => samples.extend(robots.iter().map(of_regulation)),
             Running::Goals(goals, teams) => {
+                let time = self.steps as f64 * self.step;
+                let sample = |law: &GoalLaw, index: usize, robot: PointState| {
+                    let goal = goals.at(index, time);
+                    let deviation = (goal.position - robot.position).norm();
+                    of_point(robot, Some(law.steer(robot, goal)), Some(goal.position), deviation)
+                };
                 for (team, law) in teams {
-                    for (index, robot) in team.robots().iter().enumerate() {
-                        let goal = goals.at(index, team.time());
-                        let steered = law.steer(*robot, goal);
-                        let deviation = (goal.position - robot.position).norm();
-                        samples.push(of_point(*robot, Some(steered), Some(goal.position), deviation));
+                    match team {
+                        Team::Points(team) => {
+                            samples.extend(
+                                team.robots().iter().enumerate().map(|(index, robot)| sample(law, index, *robot)),
+                            );
+                        }
+                        Team::Bodies(team) => {
+                            let seen = team.hands().zip(team.robots()).enumerate();
+                            samples.extend(seen.map(|(index, (hand, body))| of_body(sample(law, index, hand), *body)));
+                        }
                     }
                 }
             }
@@ -242,6 +268,11 @@ fn of_regulation(robot: &Regulation<ChosenLaw>) -> Sample {
 
 /// Below this speed a point has no heading, m/s.
 const STANDS: f64 = 1e-9;
+
+/// A hand, with the heading and the speeds of its body.
+fn of_body(hand: Sample, HilareState { pose, twist: Twist { v, omega } }: HilareState) -> Sample {
+    Sample { heading: pose.theta, speed: v, turn_rate: omega, ..hand }
+}
 
 fn of_point(robot: PointState, steered: Option<Steered>, goal: Option<Vector2<f64>>, deviation: f64) -> Sample {
     let PointState { position, velocity } = robot;

@@ -1,7 +1,7 @@
 //! A trench that is chosen while the program runs: by a parameter or a scenario file.
 use super::{
-    Conic, CriticallyDamped, Hyperbolic, HyperbolicDamping, Interval, Quadratic, Saturated, SlopeTable, Slopes,
-    SquareRoot, Trench, Written,
+    AnyDamping, Conic, CriticallyDamped, Hyperbolic, Interval, Quadratic, Saturated, SlopeTable, Slopes, SquareRoot,
+    Trench, Written,
 };
 
 /// One of the trenches of this module.
@@ -17,8 +17,8 @@ pub enum AnyTrench {
     Saturated(Saturated),
     /// F_2 of Example 5.2.3.
     SquareRoot(SquareRoot),
-    /// Corollary A.9.1 for the damping of Example A.9.2.
-    Critical(CriticallyDamped<HyperbolicDamping>),
+    /// Corollary A.9.1.
+    Critical(CriticallyDamped<AnyDamping>),
     /// Lemma 5.2.1.
     Table(SlopeTable),
     /// A formula.

@@ -1,5 +1,5 @@
 //! Corollary A.9.1 as a constructor: damping in, potential out.
-use super::{Damping, Slopes, Trench};
+use super::{Damping, Interval, Slopes, Trench, convex_bounds};
 
 /// Phi = K^2/8 and phi = K k/4: with the damping k the equation (11) returns to 0 at the edge of overshooting, if k > 0
 /// except at 0 and the integral of 1/K diverges at 0 (it does whenever k is bounded there).
@@ -16,5 +16,9 @@ impl<D: Damping> Trench for CriticallyDamped<D> {
 
     fn slopes(&self, x: f64) -> Slopes {
         Slopes::smooth(0.25 * self.0.integral(x) * self.0.coefficient(x))
+    }
+
+    fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        if self.0.never_falls() { convex_bounds(self, low, high) } else { None }
     }
 }

@@ -7,6 +7,11 @@ pub trait Damping {
 
     /// K(x), the integral of k from 0 to x, m/s; odd for even k.
     fn integral(&self, x: f64) -> f64;
+
+    /// Whether k never falls with |x|. Then K k / 4 does not either, and the trench of Corollary A.9.1 is convex.
+    fn never_falls(&self) -> bool {
+        false
+    }
 }
 
 /// k = C, Example A.9.1.
@@ -23,6 +28,10 @@ impl Damping for ConstantDamping {
 
     fn integral(&self, x: f64) -> f64 {
         self.coefficient * x
+    }
+
+    fn never_falls(&self) -> bool {
+        self.coefficient >= 0.0
     }
 }
 
@@ -43,6 +52,10 @@ impl Damping for HyperbolicDamping {
     fn integral(&self, x: f64) -> f64 {
         self.alpha * x * x.abs() / (libm::hypot(x, self.a) + self.a)
     }
+
+    fn never_falls(&self) -> bool {
+        self.alpha >= 0.0
+    }
 }
 
 /// [`HyperbolicDamping`] that stays at its value at |x| = 1 beyond, Example A.9.3; odd, unlike the printed K.
@@ -57,5 +70,44 @@ impl Damping for SaturatedDamping {
     fn integral(&self, x: f64) -> f64 {
         let inner = x.clamp(-1.0, 1.0);
         self.0.integral(inner) + self.0.coefficient(1.0) * (x - inner)
+    }
+
+    fn never_falls(&self) -> bool {
+        self.0.never_falls()
+    }
+}
+
+/// A damping that is chosen while the program runs: by a parameter or a scenario file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AnyDamping {
+    /// Example A.9.1.
+    Constant(ConstantDamping),
+    /// Example A.9.2.
+    Hyperbolic(HyperbolicDamping),
+    /// Example A.9.3.
+    Saturated(SaturatedDamping),
+}
+
+impl AnyDamping {
+    fn chosen(&self) -> &dyn Damping {
+        match self {
+            Self::Constant(damping) => damping,
+            Self::Hyperbolic(damping) => damping,
+            Self::Saturated(damping) => damping,
+        }
+    }
+}
+
+impl Damping for AnyDamping {
+    fn coefficient(&self, x: f64) -> f64 {
+        self.chosen().coefficient(x)
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        self.chosen().integral(x)
+    }
+
+    fn never_falls(&self) -> bool {
+        self.chosen().never_falls()
     }
 }

@@ -17,7 +17,7 @@ pub use admissibility::{Admissible, Inadmissible, check_admissibility};
 pub use any::AnyTrench;
 pub use conic::Conic;
 pub use critical::CriticallyDamped;
-pub use damping::{ConstantDamping, Damping, HyperbolicDamping, SaturatedDamping};
+pub use damping::{AnyDamping, ConstantDamping, Damping, HyperbolicDamping, SaturatedDamping};
 pub use hyperbolic::Hyperbolic;
 pub use quadratic::Quadratic;
 pub use saturated::Saturated;

@@ -4,7 +4,8 @@ use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::Vector2;
 use trench_formation::trench::{
-    AnyTrench, Conic, Hyperbolic, Meaning, Quadratic, Saturated, SlopeTable, SquareRoot, Written, check_admissibility,
+    AnyDamping, AnyTrench, Conic, ConstantDamping, CriticallyDamped, Hyperbolic, HyperbolicDamping, Meaning, Quadratic,
+    Saturated, SaturatedDamping, SlopeTable, SquareRoot, Written, check_admissibility,
 };
 use trench_formation::zoning::{Edge, Radii, RadiiError, Sharpness, Zoning};
 
@@ -54,6 +55,21 @@ pub(super) fn some<'a>(map: &Map<'a>, key: &str) -> Result<&'a [Node], ConfigErr
     if nodes.is_empty() { Err(map.error(key, "is empty", "give at least one")) } else { Ok(nodes) }
 }
 
+/// A damping function k(d) of A.9: from it follows the trench that it damps critically.
+pub(super) fn damping(map: &Map<'_>, key: &str) -> Result<AnyDamping, ConfigError> {
+    let map = map.map(key)?;
+    let kind = map.one_of("kind", &[("constant", 0), ("hyperbolic", 1), ("saturated", 2)])?;
+    let hyperbolic =
+        || Ok::<_, ConfigError>(HyperbolicDamping { alpha: positive(&map, "alpha")?, a: positive(&map, "a")? });
+    let damping = match kind {
+        0 => AnyDamping::Constant(ConstantDamping { coefficient: positive(&map, "coefficient")? }),
+        1 => AnyDamping::Hyperbolic(hyperbolic()?),
+        _ => AnyDamping::Saturated(SaturatedDamping(hyperbolic()?)),
+    };
+    map.finish()?;
+    Ok(damping)
+}
+
 /// A trench function, admissible.
 pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError> {
     let map = map.map(key)?;
@@ -65,6 +81,7 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
         ("square_root", 4),
         ("table", 5),
         ("expression", 6),
+        ("critical", 7),
     ];
     let trench = match map.one_of("kind", &kinds)? {
         0 => AnyTrench::Hyperbolic(Hyperbolic { alpha: positive(&map, "alpha")?, a: positive(&map, "a")? }),
@@ -77,6 +94,7 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
             let table = SlopeTable::new(rows.into_iter().map(|[x, slope]| (x, slope)).collect());
             AnyTrench::Table(table.map_err(|error| map.error("slope", error.to_string(), "rows are [x, slope]"))?)
         }
+        7 => AnyTrench::Critical(CriticallyDamped(damping(&map, "damping")?)),
         _ => {
             let range = map.get_or("range", RANGE)?;
             let (key, meaning) = match map.opt_node("potential") {

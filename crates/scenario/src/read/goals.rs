@@ -1,27 +1,29 @@
 //! `kind: goal_tracking`: chapter 5.
 
-use super::common::{name, point, point_or_zero, positive, some, trench};
+use super::common::{damping, name, point, point_or_zero, positive, some, trench};
 use crate::law::GoalLaw;
 use crate::scenario::{GoalCase, GoalTracking};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::avoidance::{GoalPotential, VelocityPotential};
-use trench_formation::kinematics::PointState;
+use trench_formation::kinematics::{Hilare, PointState};
 use trench_formation::laws;
 use trench_formation::simulate::WaveGoals;
-use trench_formation::trench::ConstantDamping;
+use trench_formation::trench::{AnyDamping, AnyTrench, ConstantDamping};
 
 pub(super) fn read(map: &Map<'_>) -> Result<GoalTracking, ConfigError> {
     let goals = goals(&map.map("goals")?)?;
     let robot = |(index, node): (usize, &Node)| robot(node, &goals, index);
-    let robots = some(map, "robots")?.iter().enumerate().map(robot).collect::<Result<_, _>>()?;
+    let robots: Vec<(PointState, f64)> =
+        some(map, "robots")?.iter().enumerate().map(robot).collect::<Result<_, _>>()?;
+    let (robots, headings) = robots.into_iter().unzip();
     let cases: Vec<GoalCase> = some(map, "cases")?.iter().map(case).collect::<Result<_, _>>()?;
     for (index, case) in cases.iter().enumerate() {
         if cases[..index].iter().any(|other| other.name == case.name) {
             return Err(map.error("cases", format!("two cases are called {}", case.name), "rename one"));
         }
     }
-    Ok(GoalTracking { goals, cases, robots })
+    Ok(GoalTracking { goals, cases, robots, headings })
 }
 
 fn goals(map: &Map<'_>) -> Result<WaveGoals, ConfigError> {
@@ -37,15 +39,42 @@ fn goals(map: &Map<'_>) -> Result<WaveGoals, ConfigError> {
     Ok(goals)
 }
 
-fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<PointState, ConfigError> {
+/// Where a robot begins, and its heading.
+fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<(PointState, f64), ConfigError> {
     let map = node.map()?;
     let position = match map.opt_node("error") {
         Some(error) => goals.at(index, 0.0).position + point(error)?,
         None => point(map.node("position")?)?,
     };
     let state = PointState { position, velocity: point_or_zero(&map, "velocity")? };
+    let heading = map.get_or("heading", 0.0)?;
     map.finish()?;
-    Ok(state)
+    Ok((state, heading))
+}
+
+/// What the law acts on: double integrators, or a body.
+fn plant(map: &Map<'_>) -> Result<Option<Hilare>, ConfigError> {
+    let Some(map) = map.opt_map("plant")? else { return Ok(None) };
+    let plant = match map.one_of("kind", &[("double_integrator", false), ("hilare", true)])? {
+        false => None,
+        true => Some(Hilare {
+            mass: positive(&map, "mass")?,
+            inertia: positive(&map, "inertia")?,
+            mass_offset: map.get_or("mass_offset", 0.0)?,
+            hand_offset: hand_offset(&map)?,
+        }),
+    };
+    map.finish()?;
+    Ok(plant)
+}
+
+/// L, in front of the axle or behind it.
+fn hand_offset(map: &Map<'_>) -> Result<f64, ConfigError> {
+    let offset = map.f64("hand_offset")?;
+    if offset != 0.0 {
+        return Ok(offset);
+    }
+    Err(map.error("hand_offset", "is 0: T1 has no inverse there (3.1.1)", "steer a point in front of the axle"))
 }
 
 fn case(node: &Node) -> Result<GoalCase, ConfigError> {
@@ -54,10 +83,10 @@ fn case(node: &Node) -> Result<GoalCase, ConfigError> {
     let label = map.opt_str("label")?.unwrap_or(&name).to_owned();
     let law = map.map("law")?;
     let chosen = match law.one_of("kind", &[("trench", 0), ("conventional", 1), ("velocity_potential", 2)])? {
-        0 => GoalLaw::Trench(laws::GoalTracking {
-            trench: trench(&law, "trench")?,
-            damping: ConstantDamping { coefficient: positive(&law, "damping")? },
-        }),
+        0 => {
+            let trench = trench(&law, "trench")?;
+            GoalLaw::Trench(laws::GoalTracking { damping: damping_with(&law, &trench)?, trench })
+        }
         1 => GoalLaw::Conventional(GoalPotential {
             strength: positive(&law, "strength")?,
             damping: positive(&law, "damping")?,
@@ -68,6 +97,16 @@ fn case(node: &Node) -> Result<GoalCase, ConfigError> {
         }),
     };
     law.finish()?;
+    let plant = plant(&map)?;
     map.finish()?;
-    Ok(GoalCase { name, label, law: chosen })
+    Ok(GoalCase { name, label, law: chosen, plant })
+}
+
+/// k, a number or a function of the distance; that which the trench is made of where it is critically damped and the law names none.
+fn damping_with(law: &Map<'_>, trench: &AnyTrench) -> Result<AnyDamping, ConfigError> {
+    match (law.opt_node("damping"), trench) {
+        (None, AnyTrench::Critical(trench)) => Ok(trench.0),
+        (Some(node), _) if node.map().is_ok() => damping(law, "damping"),
+        _ => Ok(AnyDamping::Constant(ConstantDamping { coefficient: positive(law, "damping")? })),
+    }
 }

@@ -5,7 +5,7 @@ use trench_formation::Vector2;
 use trench_formation::agent::Method;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::GoalMotion;
-use trench_formation::trench::{AnyTrench, CriticallyDamped, HyperbolicDamping, Quadratic};
+use trench_formation::trench::{AnyDamping, AnyTrench, CriticallyDamped, HyperbolicDamping, Quadratic};
 
 /// A law for double integrators, as chosen by the parameter `law`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,7 +96,9 @@ impl DynamicLaw {
     /// element of K.
     pub(crate) fn own_trench(self, parameters: &Parameters) -> Result<Option<AnyTrench>, ConfigError> {
         Ok(match self {
-            Self::GoalDamped => Some(AnyTrench::Critical(CriticallyDamped(damping(parameters)?))),
+            Self::GoalDamped => {
+                Some(AnyTrench::Critical(CriticallyDamped(AnyDamping::Hyperbolic(damping(parameters)?))))
+            }
             Self::Queue => Some(AnyTrench::Quadratic(Quadratic { alpha: parameters.f64("queue.position_gain")? })),
             _ => None,
         })

@@ -46,7 +46,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string(
             "trench.shape",
             "hyperbolic",
-            "Phi: hyperbolic, quadratic, saturated, conic, square_root, or written: table, potential, slope",
+            "Phi: hyperbolic, quadratic, saturated, conic, square_root, critical (for damping), or written: table, potential, slope",
         ),
         P::double("trench.alpha", 0.3, "m/s^2, pull of the trench far from its bottom").range(1e-6, 1e6),
         P::double("trench.a", 0.3, "m, width of its bottom").range(1e-6, 1e6),

@@ -1,0 +1,70 @@
+//! Hilare robots (3.1.1) that track goal points: a law for double integrators acts on them through T1 and T2.
+use super::Integration;
+use crate::kinematics::{HandState, Hilare, HilareState, PointState, Pose, Twist};
+use crate::laws::{GoalMotion, Steered};
+use crate::stability::rk4;
+use nalgebra::SVector;
+
+/// A team under way, all of one body: the hand of each goes to the goal point of its index, by one law.
+#[derive(Debug, Clone)]
+pub struct HilareTeam {
+    body: Hilare,
+    robots: Vec<HilareState>,
+    method: Integration,
+    step: f64,
+    steps: u64,
+}
+
+impl HilareTeam {
+    /// Robots at their start, by where their hands are and how these move.
+    ///
+    /// [`Integration::RungeKutta`] asks law and feedback again at each of its stages; otherwise forces are held for a step, as of a robot
+    /// that is commanded once a step, and the body moves under them by RK4.
+    pub fn new(body: Hilare, hands: &[HandState], method: Integration, step: f64) -> Self {
+        let robots = hands.iter().map(|hand| body.from_hand(*hand)).collect();
+        Self { body, robots, method, step, steps: 0 }
+    }
+
+    /// Advances by one step. `goal` moves the goal point of a robot, `law` steers its hand to it.
+    pub fn step(&mut self, goal: impl Fn(usize, f64) -> GoalMotion, law: impl Fn(PointState, GoalMotion) -> Steered) {
+        let (time, body, step) = (self.time(), self.body, self.step);
+        for (index, robot) in self.robots.iter_mut().enumerate() {
+            let input = |state: HilareState, time: f64| {
+                body.feedback(state, law(body.to_hand(state).hand, goal(index, time)).acceleration)
+            };
+            *robot = match self.method {
+                Integration::RungeKutta => of_vector(&rk4(time, to_vector(*robot), step, |time, now| {
+                    let state = of_vector(now);
+                    let (sin, cos) = libm::sincos(state.pose.theta);
+                    let (Twist { v, omega }, rates) = (state.twist, body.rates(state.twist, input(state, time)));
+                    SVector::<f64, 5>::new(v * cos, v * sin, omega, rates.v, rates.omega)
+                })),
+                Integration::Exact | Integration::SemiImplicitEuler => body.advanced(*robot, input(*robot, time), step),
+            };
+        }
+        self.steps += 1;
+    }
+
+    /// Seconds simulated.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.step
+    }
+
+    /// The robots, in order.
+    pub fn robots(&self) -> &[HilareState] {
+        &self.robots
+    }
+
+    /// Their hands, which move as double integrators do (3.4).
+    pub fn hands(&self) -> impl Iterator<Item = PointState> {
+        self.robots.iter().map(|robot| self.body.to_hand(*robot).hand)
+    }
+}
+
+fn to_vector(HilareState { pose, twist }: HilareState) -> SVector<f64, 5> {
+    SVector::<f64, 5>::new(pose.x, pose.y, pose.theta, twist.v, twist.omega)
+}
+
+fn of_vector(q: &SVector<f64, 5>) -> HilareState {
+    HilareState { pose: Pose::new(q[0], q[1], q[2]), twist: Twist { v: q[3], omega: q[4] } }
+}
