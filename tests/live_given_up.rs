@@ -3,6 +3,8 @@
 
 #[expect(dead_code, reason = "other live tests use the rest")]
 mod live_support;
+#[path = "support/programs.rs"]
+mod programs;
 #[path = "support/running.rs"]
 mod running;
 
@@ -10,6 +12,7 @@ use live_support::{Launch, domain};
 use running::Running;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use trench_bag::BagReader;
@@ -75,13 +78,18 @@ impl<'a> UnderWay<'a> {
     }
 }
 
+/// A program that launches start.
+fn program(name: &str) -> PathBuf {
+    programs::trench().with_file_name(name)
+}
+
 /// Starts a node of a launch by hand, with what the launch gives it.
 fn by_hand(launch: &Launch, mut dry_run: Command, name: &str) -> Running {
     let output = dry_run.arg("--dry-run").output().unwrap();
     let plan: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
     let node = plan.iter().find(|process| process["label"].as_str().unwrap().starts_with(name)).unwrap();
     let mut arguments = node["argv"].as_array().unwrap().iter().map(|argument| argument.as_str().unwrap());
-    let program = live_support::program(arguments.next().unwrap());
+    let program = program(arguments.next().unwrap());
     let mut command = Command::new(program);
     command.args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
     command.envs(dry_run.get_envs().filter_map(|(name, value)| Some((name, value?))));
@@ -142,7 +150,7 @@ fn live_a_localizer_that_dies_again_and_again_is_an_emergency() {
 fn live_robots_go_on_without_a_recorder_and_a_view() {
     let launch = Launch::new(domain(1));
     let file = launch.folder.path().join("watched.launch.yaml");
-    let (trench, square) = (live_support::program("trench"), launch.root.join("launch/square.launch.yaml"));
+    let (trench, square) = (program("trench"), launch.root.join("launch/square.launch.yaml"));
     let text = format!(
         "launch:\n- executable: {{name: view, cmd: \"{} view --port 0\"}}\n- include:\n    file: {}\n    arg:\n    \
          - {{name: record, value: \"true\"}}\n    - {{name: bag, value: {}}}\n    - {{name: port, value: {}}}\n    \

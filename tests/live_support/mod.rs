@@ -100,11 +100,6 @@ impl Launch {
     }
 }
 
-/// A program that launches start.
-pub(crate) fn program(name: &str) -> PathBuf {
-    programs::trench().with_file_name(name)
-}
-
 impl Drop for Launch {
     fn drop(&mut self) {
         self.forget("");
