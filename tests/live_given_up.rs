@@ -3,12 +3,10 @@
 
 #[expect(dead_code, reason = "other live tests use the rest")]
 mod live_support;
-#[path = "support/programs.rs"]
-mod programs;
 #[path = "support/running.rs"]
 mod running;
 
-use live_support::{Launch, domain};
+use live_support::{Launch, domain, programs};
 use running::Running;
 use rustix::process::{Pid, Signal, kill_process};
 use serde_json::Value;

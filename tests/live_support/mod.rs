@@ -3,7 +3,7 @@
 #[path = "../support/own_memory.rs"]
 mod own_memory;
 #[path = "../support/programs.rs"]
-mod programs;
+pub(crate) mod programs;
 
 use own_memory::OwnMemory;
 use std::path::PathBuf;
