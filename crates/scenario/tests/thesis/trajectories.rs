@@ -95,8 +95,8 @@ fn paths_end_straight_below_the_critical_gain_ratio_and_wind_up_above() {
     for (law, cin) in [("3.9", entire_cosine_integral(FRAC_PI_4)), ("3.10", 0.5 * entire_cosine_integral(FRAC_PI_2))] {
         let cases = by_case(&format!("4.4.1_law_{law}.yaml"));
         let critical = FRAC_PI_2 * libm::exp(-cin);
-        for robot in 0..4 {
-            let [low, at, high] = [0, 1, 2].map(|case: usize| cases[case][robot].curvature);
+        for ((low, at), high) in cases[0].iter().zip(&cases[1]).zip(&cases[2]) {
+            let [low, at, high] = [low, at, high].map(|robot| robot.curvature);
             assert!(low < 0.01 * at, "{law}: {low}");
             assert!((at / critical - 1.0).abs() < 0.01, "{law}: {at} {critical}");
             assert!(high > 10.0 * at, "{law}: {high}");
