@@ -48,6 +48,20 @@ fn shapes() -> Vec<CurveShape> {
     ]
 }
 
+/// Nothing is near what is no point, and nobody dies of the question.
+#[test]
+fn points_that_are_not_finite_have_no_distance() {
+    let line = curve(CurveShape::Polyline(vec![at(0.0, 0.0), at(1.0, 0.0)]));
+    for curve in [line, parabola()] {
+        for point in [at(f64::NAN, 0.0), at(0.0, f64::NAN), at(f64::INFINITY, 0.0), at(f64::NEG_INFINITY, f64::NAN)] {
+            assert!(!curve.nearest(point).distance.is_finite());
+            assert!(curve.nearest_all(point).feet.iter().all(|foot| !foot.distance.is_finite()));
+            let placed = Placed::new(&curve, Isometry2::identity());
+            assert!(!placed.nearest(point).distance.is_finite());
+        }
+    }
+}
+
 #[test]
 fn nearest_points_of_the_parabola() {
     for height in [0.75, 1.0, 2.5] {

@@ -101,8 +101,11 @@ impl BoxTree {
     }
 
     /// Calls `visit` with every piece whose box is within `reach` of `point`, nearer boxes first; `visit` returns the
-    /// reach from then on.
+    /// reach from then on. Nothing is near a point that is not finite.
     pub(super) fn visit_near(&self, point: Vector2<f64>, reach: f64, mut visit: impl FnMut(usize) -> f64) {
+        if !(point.x + point.y).is_finite() {
+            return;
+        }
         self.visit_below(0, point, squared(reach), &mut visit);
     }
 

@@ -108,6 +108,26 @@ fn team_states_of_another_time_do_not_count() {
     assert!(bench.tick(&bench.team(tracked, 0.03)).twist.linear.x > 0.0);
 }
 
+/// Nonsense neither drives the robot nor ends its controller, whoever of the team it is about.
+#[test]
+fn team_states_that_are_no_numbers_do_not_count() {
+    let mut bench = Bench::new();
+    bench.running();
+    let good = bench.team(RobotState::STATUS_TRACKED, 0.03);
+    assert!(bench.tick(&good).twist.linear.x > 0.0);
+    for number in [f64::NAN, f64::INFINITY] {
+        bench.out.take();
+        let mut bad = good.clone();
+        (bad.robots[0].x, bad.robots[0].y) = (number, number);
+        bad.header.stamp = bench.times().ros.into();
+        bench.send("/team_state", &bad);
+        assert!(bench.says().contains("finite"), "{}", bench.says());
+        assert!(bench.out.published::<TwistStamped>(bench.port("/robot1/cmd_vel")).is_empty());
+    }
+    bench.seconds += 0.033;
+    assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
+}
+
 /// As after a bag that begins anew, or a simulated clock that was reset.
 #[test]
 fn a_clock_that_is_set_back_makes_nothing_late() {
