@@ -1,6 +1,6 @@
 //! What a tick makes of what was heard.
 
-use crate::bench::Bench;
+use crate::bench::{Bench, formation};
 use trench_core::{Event, RosTime};
 use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::msg::{Goals, LeaderState, RobotState, RunState, TeamState};
@@ -108,26 +108,6 @@ fn team_states_of_another_time_do_not_count() {
     assert!(bench.tick(&bench.team(tracked, 0.03)).twist.linear.x > 0.0);
 }
 
-/// Nonsense neither drives the robot nor ends its controller, whoever of the team it is about.
-#[test]
-fn team_states_that_are_no_numbers_do_not_count() {
-    let mut bench = Bench::new();
-    bench.running();
-    let good = bench.team(RobotState::STATUS_TRACKED, 0.03);
-    assert!(bench.tick(&good).twist.linear.x > 0.0);
-    for number in [f64::NAN, f64::INFINITY] {
-        bench.out.take();
-        let mut bad = good.clone();
-        (bad.robots[0].x, bad.robots[0].y) = (number, number);
-        bad.header.stamp = bench.times().ros.into();
-        bench.send("/team_state", &bad);
-        assert!(bench.says().contains("finite"), "{}", bench.says());
-        assert!(bench.out.published::<TwistStamped>(bench.port("/robot1/cmd_vel")).is_empty());
-    }
-    bench.seconds += 0.033;
-    assert!(bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x > 0.0);
-}
-
 /// As after a bag that begins anew, or a simulated clock that was reset.
 #[test]
 fn a_clock_that_is_set_back_makes_nothing_late() {
@@ -170,8 +150,12 @@ fn goals_of_another_time_do_not_count() {
 #[test]
 fn numbers_that_are_none_never_reach_the_wheels() {
     for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e308] {
-        for field in 0..5 {
+        for (field, on_a_segment) in (0..5).flat_map(|field| [(field, false), (field, true)]) {
             let mut bench = Bench::new();
+            if on_a_segment {
+                // Where it is from its segment is told to the others.
+                formation(&mut bench);
+            }
             bench.running();
             let mut team = bench.team(RobotState::STATUS_TRACKED, 0.0);
             let robot = &mut team.robots[0];
