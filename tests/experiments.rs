@@ -7,7 +7,7 @@
 mod support;
 
 use std::fmt::{self, Display};
-use support::{Finished, drive, random_poses};
+use support::{Finished, drive, named_seeds, random_poses};
 use trench_bag::run::{Run, RunSummary, SummaryOptions, Track, distance, summary};
 use trench_harness::Ending;
 
@@ -15,7 +15,7 @@ use trench_harness::Ending;
 const EXPERIMENTS: [(&str, usize); 2] = [("triangle.launch.yaml", 3), ("square.launch.yaml", 4)];
 
 fn seeds() -> u64 {
-    std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(20)
+    named_seeds().unwrap_or(20)
 }
 
 fn judged(finished: &Finished, shape_times: &[f64]) -> RunSummary {

@@ -7,15 +7,14 @@
 mod support;
 
 use std::time::SystemTime;
-use support::{Finished, drive, pursued, root, starts};
+use support::{Finished, drive, named_seeds, pursued, root, starts};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
 
 /// As many of the twenty starts as `TRENCH_SEEDS` says, others every day.
 fn seeds() -> Vec<u64> {
-    let named = std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok());
     let today = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_secs() / 86_400;
-    let count = named.unwrap_or(3);
+    let count = named_seeds().unwrap_or(3);
     (0..count).map(|index| 1 + (today * count + index) % 20).collect()
 }
 

@@ -9,14 +9,14 @@ mod support;
 #[path = "support/team.rs"]
 mod team;
 
-use support::{Finished, drive_file, random_poses, root};
+use support::{Finished, drive_file, named_seeds, random_poses, root};
 use team::{formation, launch_file, places};
 use trench_bag::run::{Pose, Run, SummaryOptions, summary};
 use trench_harness::Ending;
 use trench_sim::Random;
 
 fn seeds() -> u64 {
-    std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(10)
+    named_seeds().unwrap_or(10)
 }
 
 /// A random team crosses the bed, with these `faults` if there are any.

@@ -20,6 +20,11 @@ pub(crate) fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// How many random starts `TRENCH_SEEDS` asks for, if it does.
+pub(crate) fn named_seeds() -> Option<u64> {
+    std::env::var("TRENCH_SEEDS").ok().and_then(|text| text.parse().ok())
+}
+
 /// Start poses as the launch argument `poses` wants them: x, y, heading of `robots` robots anywhere on the bed, bodies
 /// 0.1 m apart from each other and from the edges.
 pub(crate) fn random_poses(robots: usize, seed: u64) -> String {

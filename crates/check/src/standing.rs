@@ -80,25 +80,16 @@ impl Standing {
     /// The middle of the gap to another, where they are nearest on their ways.
     pub(crate) fn middle_of_gap(&self, other: &Self) -> Vector2<f64> {
         let mut best = (f64::INFINITY, Vector2::zeros());
-        for way in &self.ways {
-            for point in self.shape.outline().boundary(STEPS) {
-                for way_of_other in &other.ways {
-                    let here = point + way;
-                    let approach = other.shape.outline().approach(here - way_of_other);
-                    if approach.gap < best.0 {
-                        best = (approach.gap, here + 0.5 * approach.gap * approach.towards);
-                    }
-                }
-            }
-        }
-        // A corner of the other may face a side of this one.
-        for way_of_other in &other.ways {
-            for point in other.shape.outline().boundary(STEPS) {
-                for way in &self.ways {
-                    let here = point + way_of_other;
-                    let approach = self.shape.outline().approach(here - way);
-                    if approach.gap < best.0 {
-                        best = (approach.gap, here + 0.5 * approach.gap * approach.towards);
+        // Both ways round: a corner of either may face a side of the other.
+        for (one, another) in [(self, other), (other, self)] {
+            for way in &one.ways {
+                for point in one.shape.outline().boundary(STEPS) {
+                    for way_of_another in &another.ways {
+                        let here = point + way;
+                        let approach = another.shape.outline().approach(here - way_of_another);
+                        if approach.gap < best.0 {
+                            best = (approach.gap, here + 0.5 * approach.gap * approach.towards);
+                        }
                     }
                 }
             }
