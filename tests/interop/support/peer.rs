@@ -54,6 +54,11 @@ impl Follower {
         panic!("{what} did not come true; the last message: {last}");
     }
 
+    /// The next message.
+    pub(crate) fn next(&self) -> Value {
+        self.0.line()
+    }
+
     /// All messages of the next so many seconds, after those that wait already.
     pub(crate) fn during(&self, seconds: f64) -> Vec<Value> {
         while self.0.lines.try_recv().is_ok() {}
