@@ -1,6 +1,6 @@
 //! The pursuit (Figure 1.5) as processes in real time, judged by ground truth, and beside the same cores in lock-step.
 //!
-//! Three random starts a day; `TRENCH_LIVE_SEED` names that of the first test (scripts/acceptance takes all twenty).
+//! Three random starts a day, at once; `TRENCH_LIVE_SEEDS` names others (scripts/acceptance takes all twenty, three at a time).
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod live_support;
@@ -15,11 +15,13 @@ use support::{drive, starts};
 use trench_bag::BagReader;
 use trench_bag::run::{StepTable, steps};
 
-/// The day's `index`-th random start of twenty.
-fn seed(index: u64) -> u64 {
-    let named = std::env::var("TRENCH_LIVE_SEED").ok().and_then(|text| text.parse().ok());
-    let today = || SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_secs() / 86_400;
-    named.unwrap_or_else(|| 1 + (3 * today() + index) % 20)
+/// Three of twenty starts, others each day.
+fn seeds() -> Vec<u64> {
+    if let Ok(named) = std::env::var("TRENCH_LIVE_SEEDS") {
+        return named.split_whitespace().map(|seed| seed.parse().unwrap()).collect();
+    }
+    let today = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_secs() / 86_400;
+    (0..3).map(|index| 1 + (3 * today + index) % 20).collect()
 }
 
 fn conformed(bag: &BagReader) -> Conformed {
@@ -49,9 +51,9 @@ fn pursue(domain: u32, seed: u64) {
     println!("{}", StepTable(&steps));
     assert_eq!(steps.len(), 8, "every controller drives");
     let jitter = steps.iter().map(|robot| robot.jitter).fold(0.0, f64::max);
-    println!("jitter p99 {:.2} ms", jitter * 1e3);
+    println!("seed {seed}: jitter p99 {:.2} ms", jitter * 1e3);
     let live = conformed(&bag);
-    pursued::judge(&live, &poses);
+    let shown = pursued::judge(&live, &format!("seed {seed}"));
     let lockstep = drive("pursuit.launch.yaml", &arguments).conformity.finish();
     let whole = [0.0, f64::INFINITY];
     let [ours, theirs] = [&live, &lockstep].map(|run| run.median_time(whole, FORMED));
@@ -59,27 +61,26 @@ fn pursue(domain: u32, seed: u64) {
     // too: starts 10 um apart end with centres 57 mm apart, and with points 1 mm apart.
     let (points, centres) = (live.points_apart(&lockstep), live.apart(&lockstep, f64::INFINITY));
     println!(
-        "the points that the law drives end {points:.4} m from where they do in lock-step, the centres {centres:.4} m"
+        "seed {seed}: the points that the law drives end {points:.4} m from where they do in lock-step, the centres {centres:.4} m"
     );
-    println!("median time to conform {ours:.1} s, {theirs:.1} s in lock-step");
+    println!("seed {seed}: median time to conform {ours:.1} s, {theirs:.1} s in lock-step");
     assert_eq!(live.assignment, lockstep.assignment, "who follows whom");
     assert!(points <= 0.02, "final points differ by {points} m");
     assert!((ours / theirs - 1.0).abs() <= 0.15, "{ours} s live, {theirs} s in lock-step");
+    println!("{shown}");
 }
 
+/// Runs that share the machine: what one of them costs leaves room for two more.
 #[test]
-fn live_pursuit_from_a_random_start() {
-    pursue(domain(0), seed(0));
-}
-
-#[test]
-fn live_pursuit_from_another_start() {
-    pursue(domain(2), seed(1));
-}
-
-#[test]
-fn live_pursuit_from_a_third_start() {
-    pursue(domain(3), seed(2));
+fn live_pursuits_from_random_starts() {
+    let domains = [0, 2, 3].map(domain);
+    let seeds = seeds();
+    assert!(seeds.len() <= domains.len(), "{seeds:?}: not more than {} at once", domains.len());
+    std::thread::scope(|scope| {
+        for (domain, seed) in domains.into_iter().zip(seeds) {
+            scope.spawn(move || pursue(domain, seed));
+        }
+    });
 }
 
 /// The column follows its target over an empty field, where nothing decides between two ways: robots come to rest facing the same way

@@ -51,7 +51,7 @@ fn pursue(seed: u64) {
     let what = format!("seed {seed}, poses {poses}");
     print!("seed {seed}: ");
     stands_without_contact(&finished, &what);
-    pursued::judge(&finished.conformity.finish(), &what);
+    println!("{}", pursued::judge(&finished.conformity.finish(), &what));
     energy_is_accounted_for(&finished, &what);
 }
 

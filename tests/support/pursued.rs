@@ -18,20 +18,15 @@ const OBSTACLES: usize = 7;
 /// and what a robot is off by where it stands.
 const NEUTRAL: [f64; 2] = [0.26 - FORMED, 0.34 + FORMED];
 
-/// Holds a pursuit against its bounds. Two things disturb: the start, from anywhere, and the field, as long as an obstacle is
+/// Holds a pursuit against its bounds and gives what it shows in a line. Two things disturb: the start, from anywhere, and the field, as long as an obstacle is
 /// within reach of some robot's way to its segment. In the field the segments sweep over obstacles without a pause.
-pub(crate) fn judge(conformed: &Conformed, what: &str) {
+pub(crate) fn judge(conformed: &Conformed, what: &str) -> String {
     let field = conformed.hindrance.until;
     let disturbances = [("start", [0.0, DEPARTURE]), ("field", [field, f64::INFINITY])];
     let formed = disturbances.map(|(name, time)| (name, conformed.formed_after(time, FORMED)));
     let told = |(name, after): &(&str, f64)| format!("{after:.1} s after the {name}");
     let spacings = conformed.spacings();
     let [least, most] = [f64::min, f64::max].map(|pick| spacings.iter().copied().reduce(pick).unwrap());
-    println!(
-        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {least:.3} to {most:.3} m apart",
-        conformed.at_the_end(),
-        formed.each_ref().map(told).join(", "),
-    );
     let hindered = &conformed.hindrance.by;
     assert_eq!(hindered.len(), OBSTACLES, "{what}: each obstacle was in somebody's way: {hindered:?}");
     for after in &formed {
@@ -40,4 +35,9 @@ pub(crate) fn judge(conformed: &Conformed, what: &str) {
     assert!(conformed.at_the_end() <= FORMED, "{what}: {} m: lost or trapped", conformed.at_the_end());
     assert_eq!(spacings.len(), 6, "{what}: two queues of four");
     assert!(least >= NEUTRAL[0] && most <= NEUTRAL[1], "{what}: {spacings:?} m apart");
+    format!(
+        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {least:.3} to {most:.3} m apart: {what}",
+        conformed.at_the_end(),
+        formed.each_ref().map(told).join(", "),
+    )
 }

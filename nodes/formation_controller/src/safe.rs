@@ -7,12 +7,10 @@ use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
 use trench_formation::kinematics::Twist;
 use trench_formation::safety::{Neighbour, Scene, Wish};
-use trench_msgs::msg::{LeaderState, RobotState};
+use trench_msgs::msg::{LeaderState, RobotState, TeamState};
 
 /// Seconds without a way round after which the side of the last one is forgotten.
 const FORGET: f64 = 2.0;
-/// More pads than so many that are no robot's are not believed.
-const MOST_UNNAMED: usize = 32;
 
 impl Tick {
     /// The twist after the filter; `goal` is what a way round leads to, `pace` (m/s) how fast
@@ -88,12 +86,14 @@ impl Tick {
     /// Pads that are no robot's yet: of a robot that was put down there, or of one that is not of the team. Nobody answers for them.
     fn unnamed(&self) -> impl Iterator<Item = Neighbour> {
         let pads = self.inputs.team.iter().flat_map(|team| &team.message.unnamed);
-        pads.filter(|pad| pad.x.is_finite() && pad.y.is_finite()).take(MOST_UNNAMED).map(|pad| Neighbour {
-            position: vector(pad),
-            velocity: Vector2::zeros(),
-            radius: self.settings.body_radius,
-            cooperative: false,
-            settled: false,
-        })
+        pads.filter(|pad| pad.x.is_finite() && pad.y.is_finite()).take(usize::from(TeamState::MOST_UNNAMED)).map(
+            |pad| Neighbour {
+                position: vector(pad),
+                velocity: Vector2::zeros(),
+                radius: self.settings.body_radius,
+                cooperative: false,
+                settled: false,
+            },
+        )
     }
 }

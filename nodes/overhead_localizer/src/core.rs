@@ -7,7 +7,7 @@ use crate::memory::Memory;
 use crate::report::{PERIOD, Report};
 use crate::settings::{Input, Pattern, Settings, descriptors, foreign};
 use crate::stream::Stream;
-use crate::track::{MOST_UNNAMED, MapDisc, Tracker};
+use crate::track::{MapDisc, Tracker};
 use crate::{markers, messages, naming, pads, recalibrate};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
@@ -296,7 +296,9 @@ fn interface(settings: &Settings, tracker: &Tracker) -> Interface {
     let write =
         |topic: String, type_info: &'static TypeInfo, local| Advertise { topic, type_info, qos: Qos::RELIABLE, local };
     // Names, frame, the number of robots and the most pads besides are fixed, and so is the greatest length.
-    let max_len = messages::team_state(Time::default(), 0, tracker.tracks(), &[[0.0; 2]; MOST_UNNAMED]).encoded_len();
+    let max_len =
+        messages::team_state(Time::default(), 0, tracker.tracks(), &[[0.0; 2]; TeamState::MOST_UNNAMED as usize])
+            .encoded_len();
     // tf2's listeners keep a hundred.
     let tf = Qos { reliability: Reliability::Reliable, durability: Durability::Volatile, depth: 100 };
     let mut publications = vec![

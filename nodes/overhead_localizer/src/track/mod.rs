@@ -15,6 +15,5 @@ pub use filter::{Filter, Motion, State, wrap};
 pub use pairing::{MapDisc, Pair};
 pub use recall::Remembered;
 pub use settings::{Names, Robot, Settings};
-pub(crate) use tracker::MOST_UNNAMED;
 pub use tracker::{NamedPose, Status, Track, Tracker};
 pub use turns::Turn;

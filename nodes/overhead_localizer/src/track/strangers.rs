@@ -5,6 +5,8 @@ use super::pairing::Pair;
 use super::settings::{Names, Settings};
 use super::tracker::Track;
 use nalgebra::Matrix3;
+use trench_msgs::msg::TeamState;
+use trench_optics::Pose2;
 
 /// For so many frames the same number of strangers must be seen before they are given names.
 const PATIENCE: u32 = 3;
@@ -64,4 +66,14 @@ impl Strangers {
             }
         }
     }
+}
+
+/// Where pads of no robot are, m: those of `pads` that are not within `body`, m, of where one of `tracks` is seen, since no two
+/// bodies are in one place.
+pub(super) fn unnamed(tracks: &[Track], pads: &[Pair], body: f64) -> Vec<[f64; 2]> {
+    let seen = tracks.iter().filter(|track| track.unseen == 0.0).filter_map(|track| track.filter.as_ref());
+    let places: Vec<Pose2> = seen.map(|filter| filter.state().pose).collect();
+    let apart = |pad: &Pose2| places.iter().all(|robot| libm::hypot(robot.x - pad.x, robot.y - pad.y) > body);
+    let apart = pads.iter().map(|pair| pair.pose).filter(apart);
+    apart.take(usize::from(TeamState::MOST_UNNAMED)).map(|pose| [pose.x, pose.y]).collect()
 }

@@ -6,7 +6,7 @@ use super::one_disc;
 use super::pairing::{self, MapDisc, Pair};
 use super::recall;
 use super::settings::{Names, Settings};
-use super::strangers::Strangers;
+use super::strangers::{self, Strangers};
 use super::turns::{self, Turn, Turns};
 use crate::noise::Gaussian;
 use nalgebra::{Matrix3, Vector3};
@@ -71,9 +71,6 @@ const START_SIGMA: [f64; 3] = [0.06, 0.06, 0.3];
 /// known of its speed is void.
 const PUSHED: f64 = 31.0;
 const FREER: f64 = 10.0;
-/// More pads than so many that are nobody's are not told of.
-pub(crate) const MOST_UNNAMED: usize = 32;
-
 impl Tracker {
     /// A tracker that has seen nothing yet; `seed` is for the noise of [`Settings::added_sigma`].
     #[must_use]
@@ -249,18 +246,8 @@ impl Tracker {
             self.turn = turns.step(dt, tracks, &unmatched, settings.hold, measurement);
             self.resolve(unmatched.is_empty());
         }
-        self.unnamed = self.nobody_s(&unmatched);
+        self.unnamed = strangers::unnamed(&self.tracks, &unmatched, 0.5 * self.settings.pad.body_diameter);
         self.settle();
-    }
-
-    /// Those of `pads` that are not where a robot is seen: no two bodies are in one place.
-    fn nobody_s(&self, pads: &[Pair]) -> Vec<[f64; 2]> {
-        let seen = self.tracks.iter().filter(|track| track.unseen == 0.0).filter_map(|track| track.filter.as_ref());
-        let places: Vec<Pose2> = seen.map(|filter| filter.state().pose).collect();
-        let body = 0.5 * self.settings.pad.body_diameter;
-        let apart = |pad: &Pose2| places.iter().all(|robot| libm::hypot(robot.x - pad.x, robot.y - pad.y) > body);
-        let apart = pads.iter().map(|pair| pair.pose).filter(apart);
-        apart.take(MOST_UNNAMED).map(|pose| [pose.x, pose.y]).collect()
     }
 
     /// The pads of a frame as they are seen.
