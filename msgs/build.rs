@@ -6,7 +6,7 @@ use trench_rosidl::{Library, Settings, generate, parse_message, parse_service};
 /// The package of `msg/` and `srv/`.
 const OWN_PACKAGE: &str = "trench_msgs";
 /// Messages that are read in place.
-const VIEWS: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"];
+const VIEWS: [&str; 3] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "trench_msgs/msg/LeaderState"];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut library = Library::default();

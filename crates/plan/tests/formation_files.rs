@@ -152,3 +152,40 @@ fn a_graph_is_a_segment() {
                                 go to a greater x; write a greater one",
     );
 }
+
+/// Each kind as it stands in a file, with the length that its closed form has and where it is half of that on.
+#[test]
+fn every_kind_of_segment_is_read_and_told_to_others() {
+    use std::f64::consts::{FRAC_1_SQRT_2, PI};
+    let quarter = PI / 2.0;
+    let kinds = [
+        ("{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}", 2.0, [1.0, 0.5]),
+        ("{kind: polyline, points: [[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]]}", 7.0, [3.0, 0.5]),
+        ("{kind: spline, points: [[0.0, 0.0], [0.5, 0.5], [1.5, 1.5], [2.0, 2.0]]}", 8f64.sqrt(), [1.0, 1.0]),
+        ("{kind: bezier, points: [[0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [3.0, 1.0]]}", 3.0, [1.5, 1.0]),
+        (
+            "{kind: arc, centre: [1.0, 1.0], radius: 1.0, start_angle: 0.0, sweep: 1.570796326794897}",
+            quarter,
+            [1.0 + FRAC_1_SQRT_2, 1.0 + FRAC_1_SQRT_2],
+        ),
+        ("{kind: ellipse, centre: [1.0, 1.0], semi_axes: [0.5, 0.5], rotation: 0.0}", PI, [0.5, 1.0]),
+        (
+            "{kind: sinusoid, origin: [0.0, 1.0], direction: 1.570796326794897, length: 2.0, amplitude: 0.0, wavelength: 1.0}",
+            2.0,
+            [0.0, 2.0],
+        ),
+        ("{kind: graph, expression: \"0.75*x\", from: 0.0, to: 4.0}", 5.0, [2.0, 1.5]),
+    ];
+    for (text, length, half_way) in kinds {
+        let line = "{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}";
+        let file = GOOD.replace(line, text).replace("  starts: [[0.5, 0.5]]\n", "");
+        let file = file.replace("vertices: [[1.5, 0.5]]", "chain: {robots: 1, spacing: 0.4}");
+        let plan = parse("pair.yaml", &file).unwrap();
+        let curve = &plan.queues[0].curve;
+        assert!((curve.length() - length).abs() < 1e-9, "{text}: {} m long", curve.length());
+        let point = curve.at(0.5 * length).point;
+        assert!((point.x - half_way[0]).hypot(point.y - half_way[1]) < 1e-9, "{text}: half way at {point}");
+        let told = plan.message(Default::default());
+        assert_eq!(trench_plan::curve_from_message(&told.queues[0].segment).unwrap(), *curve, "{text}");
+    }
+}

@@ -22,6 +22,7 @@ mod parameters;
 mod priority;
 mod process;
 mod reference;
+mod rhythm;
 mod run;
 mod signals;
 mod stream;

@@ -28,6 +28,13 @@ const FLUSH_SECONDS: f64 = 0.002;
 /// rather than at the next frame of the camera, when every robot waits.
 const LEISURE_SECONDS: f64 = 0.004;
 
+/// How long before the next frame is expected that is done, s, where frames come at regular times: this also brings back into caches
+/// what the frame will need.
+const AHEAD_SECONDS: f64 = 0.001;
+
+/// What wakes a node more seldom, s, is not waited for.
+const LONGEST_SECONDS: f64 = 0.1;
+
 /// How long the network may take to close.
 const LEAVING: Duration = Duration::from_secs(3);
 
@@ -131,10 +138,13 @@ impl Process {
     fn wake(&mut self, token: usize) -> io::Result<()> {
         let now = steady_now();
         self.topics.take_waiting(now, &mut self.nodes)?;
-        self.leisure = self.topics.some_wait().then(|| now.plus_seconds(LEISURE_SECONDS));
         match self.wakes.get(token).copied().flatten() {
-            Some(Wake::Topic(index)) => self.topics.take(index, steady_now(), &mut self.nodes),
+            Some(Wake::Topic(index)) => {
+                self.topics.beat(index, now);
+                self.topics.take(index, steady_now(), &mut self.nodes);
+            }
             Some(Wake::Network(index)) => {
+                self.topics.beat(index, now);
                 self.topics.network_wakes(index);
                 self.topics.take(index, steady_now(), &mut self.nodes);
             }
@@ -145,7 +155,15 @@ impl Process {
             }
             None => {}
         }
+        self.leisure = self.topics.some_wait().then(|| self.leisure_after(now));
         Ok(())
+    }
+
+    /// When to take what has come without waking, after a wake-up `now`.
+    fn leisure_after(&self, now: Steady) -> Steady {
+        let soon = now.plus_seconds(LEISURE_SECONDS);
+        let next = self.topics.next_beat(soon.plus_seconds(AHEAD_SECONDS)).map(|next| next.seconds_since(now));
+        next.filter(|wait| *wait <= LONGEST_SECONDS).map_or(soon, |wait| now.plus_seconds(wait - AHEAD_SECONDS))
     }
 
     fn follow_graph(&mut self) {
@@ -181,8 +199,8 @@ impl Process {
         let now = steady_now();
         let mut next: Option<Steady> = None;
         let at_leisure = self.leisure.is_some_and(|at| at <= now);
+        self.leisure = self.leisure.filter(|_| !at_leisure);
         if at_leisure || self.nodes.iter().any(|node| node.is_due(now)) {
-            self.leisure = None;
             self.topics.take_waiting(now, &mut self.nodes)?;
         }
         for node in &mut self.nodes {

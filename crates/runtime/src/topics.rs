@@ -4,6 +4,7 @@
 //! each other's leader states by a hundred readers instead of ten thousand, and a message wakes the process once.
 
 use crate::node::{Connections, Node, Subscription};
+use crate::rhythm::Rhythm;
 use crate::transport::TransportError;
 use crate::transport::network::{GraphChange, NetworkReader};
 use crate::transport::shared_memory::Host;
@@ -34,6 +35,8 @@ pub(crate) enum Heard {
 struct Topic {
     subscription: Subscription,
     listeners: Vec<Listener>,
+    /// When it wakes.
+    rhythm: Rhythm,
 }
 
 /// All topics of a process. Tokens of the loop name them by their indices.
@@ -64,7 +67,7 @@ impl Topics {
 
     /// Adds a topic that `listener` reads.
     pub(crate) fn add(&mut self, subscription: Subscription, listener: Listener) {
-        self.all.push(Topic { subscription, listeners: vec![listener] });
+        self.all.push(Topic { subscription, listeners: vec![listener], rhythm: Rhythm::default() });
     }
 
     /// Lets `listener` read a topic that is open already, if it is; gives its reader.
@@ -83,7 +86,7 @@ impl Topics {
 
     /// Brings what waits on topic number `index` to all who read it.
     pub(crate) fn take(&mut self, index: usize, now: Steady, nodes: &mut [Node]) {
-        let Some(Topic { subscription, listeners }) = self.all.get_mut(index) else { return };
+        let Some(Topic { subscription, listeners, .. }) = self.all.get_mut(index) else { return };
         let mut problems = Vec::new();
         subscription.drain(
             now,
@@ -114,6 +117,18 @@ impl Topics {
                 format!("{topic}: {count} unreadable message(s) dropped, the first because: {first}")
             });
         }
+    }
+
+    /// Topic number `index` has woken the process.
+    pub(crate) fn beat(&mut self, index: usize, now: Steady) {
+        if let Some(topic) = self.all.get_mut(index) {
+            topic.rhythm.beat(now);
+        }
+    }
+
+    /// When a topic will wake the process next, later than `earliest`, as far as that can be told.
+    pub(crate) fn next_beat(&self, earliest: Steady) -> Option<Steady> {
+        self.all.iter().filter_map(|topic| topic.rhythm.next()).filter(|next| *next > earliest).min()
     }
 
     /// Whether there are topics that wake nobody.

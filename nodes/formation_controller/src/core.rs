@@ -1,6 +1,6 @@
 //! The node core: events in, ticks, messages out.
 
-use crate::inputs::{Heard, Hulls};
+use crate::inputs::{Heard, Hulls, Spoken};
 use crate::monitor::Violation;
 use crate::ports::{
     APPARENT_OBSTACLES, ASSIGNMENT, CMD_VEL, DIAGNOSTICS, EMERGENCY_STOP, FORMATION, GOALS, LEADER_STATE, LINK,
@@ -21,7 +21,7 @@ use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{
-    ApparentObstacleArray, Assignment, Formation, Goals, Identify, LeaderState, LinkStatus, RunState, TeamState,
+    ApparentObstacleArray, Assignment, Formation, Goals, Identify, LeaderStateView, LinkStatus, RunState, TeamState,
 };
 use trench_msgs::std_msgs::{Bool, Float64, Header};
 
@@ -154,9 +154,9 @@ impl FormationController {
             OWN => inputs.voices.hear(&self.tick.settings.robot, source.gid, at.steady),
             _ => match self.others.get(port - OTHERS) {
                 Some(name) => {
-                    let state = LeaderState::decode(cdr)?;
+                    let state = LeaderStateView::decode(cdr)?;
                     if self.tick.team_link.carries(at.steady, name) {
-                        inputs.take_other(at, name, state)?;
+                        inputs.take_other(at, name, Spoken::from(&state))?;
                     }
                 }
                 None if port > OTHERS + self.others.len() => inputs.loop_delay = Some(Float64::decode(cdr)?.data),

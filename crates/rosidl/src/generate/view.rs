@@ -25,10 +25,15 @@ pub(super) fn closure(library: &Library, asked: &[&str]) -> Result<BTreeSet<Stri
 
 fn is_borrowed(field: &Field) -> bool {
     match (&field.base, field.shape) {
-        (Base::String { .. }, Shape::Single) => true,
+        (Base::String { .. }, Shape::Single) | (Base::String { bound: None }, Shape::Sequence) => true,
         (Base::Primitive(primitive), Shape::Sequence) => matches!(primitive, Primitive::UInt8 | Primitive::Byte),
         _ => false,
     }
+}
+
+/// Whether the borrowed form is a list of its own, of what points into the bytes read.
+fn is_list(field: &Field) -> bool {
+    matches!(field.base, Base::String { .. }) && field.shape == Shape::Sequence
 }
 
 pub(super) fn generate(context: &Context, definition: &Definition) -> Result<String, Error> {
@@ -37,6 +42,7 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
     let mut types = Vec::new();
     for field in &definition.fields {
         types.push(match (&field.base, field.shape) {
+            (Base::String { .. }, _) if is_borrowed(field) && is_list(field) => "::std::vec::Vec<&'a str>".to_owned(),
             (Base::String { .. }, _) if is_borrowed(field) => "&'a str".to_owned(),
             (Base::Primitive(_), _) if is_borrowed(field) => "&'a [u8]".to_owned(),
             (Base::Nested(nested), Shape::Single) if context.views.contains(nested) => {
@@ -50,7 +56,8 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
             }
         });
     }
-    let mut source = message::structure(definition, &view, "<'a>", true, &types);
+    let is_copy = !definition.fields.iter().any(is_list);
+    let mut source = message::structure(definition, &view, "<'a>", is_copy, &types);
     source += &message::codec(definition, &view, "<'a>", &types);
     source += &message::encode(&view, &format!("<{name} as crate::Message>::TYPE"), "<'a>");
     source += &format!(

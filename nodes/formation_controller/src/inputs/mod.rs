@@ -10,7 +10,7 @@ mod voices;
 pub(crate) use goals::Said;
 pub(crate) use hulls::Hulls;
 pub(crate) use orders::Orders;
-pub(crate) use teammates::{Ahead, Others};
+pub(crate) use teammates::{Ahead, Others, Spoken};
 pub(crate) use voices::Voices;
 
 use crate::refusal::Refusal;
@@ -22,7 +22,7 @@ use trench_formation::Vector2;
 use trench_msgs::msg::{Assignment, Identify, Member, Point2, RobotState, RunState, TeamState};
 
 /// A message and the monotonic time of its receipt: ages that stop robots are measured by it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Heard<T> {
     pub(crate) at: Steady,
     pub(crate) message: T,

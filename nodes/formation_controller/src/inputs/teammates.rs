@@ -8,15 +8,47 @@ use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
 use trench_formation::agent::Leader;
 use trench_formation::kinematics::PointState;
-use trench_msgs::msg::{Assignment, LeaderState, Member};
+use trench_msgs::msg::{Assignment, LeaderStateView, Member, Point2};
 
 /// The newest states of the others.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Others {
     /// Whatever they follow.
-    said: BTreeMap<String, Heard<LeaderState>>,
+    said: BTreeMap<String, Heard<Spoken>>,
     /// The newest that counted when it came: of our assignment then.
-    teammates: BTreeMap<String, Heard<LeaderState>>,
+    teammates: BTreeMap<String, Heard<Spoken>>,
+}
+
+/// What a controller goes by of a leader state.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Spoken {
+    stamp: RosTime,
+    epoch: u64,
+    formation_hash: u64,
+    point: Point2,
+    point_velocity: Point2,
+    place: Point2,
+    pub(crate) goal_distance: f64,
+    lyapunov: f64,
+    error_bound: f64,
+    pub(crate) limited_by: u8,
+}
+
+impl From<&LeaderStateView<'_>> for Spoken {
+    fn from(state: &LeaderStateView<'_>) -> Self {
+        Self {
+            stamp: RosTime::from(&state.header.stamp),
+            epoch: state.epoch,
+            formation_hash: state.formation_hash,
+            point: state.point,
+            point_velocity: state.point_velocity,
+            place: state.place,
+            goal_distance: state.goal_distance,
+            lyapunov: state.lyapunov,
+            error_bound: state.error_bound,
+            limited_by: state.limited_by,
+        }
+    }
 }
 
 /// A robot ahead in the chain at a tick.
@@ -44,23 +76,22 @@ impl Inputs {
     ///
     /// # Errors
     /// Why it does not count.
-    pub(crate) fn take_other(&mut self, at: Times, name: &str, message: LeaderState) -> Result<(), Refusal> {
+    pub(crate) fn take_other(&mut self, at: Times, name: &str, message: Spoken) -> Result<(), Refusal> {
         let points = [&message.point, &message.point_velocity, &message.place];
         let sum: f64 = points.iter().map(|point| point.x + point.y).sum();
         // A bound may be infinite.
         if !(sum + message.goal_distance + message.lyapunov).is_finite() || message.error_bound.is_nan() {
             return Err(Refusal::NotFinite);
         }
-        let before = self.others.said.get(name).map(|before| RosTime::from(&before.message.header.stamp));
-        timely(at, RosTime::from(&message.header.stamp), before)?;
+        timely(at, message.stamp, self.others.said.get(name).map(|before| before.message.stamp))?;
         let judged = self.assignment.as_ref().map_or(Ok(()), |ours| same(ours, &message));
         // A robot that has not heard of any assignment yet is no teammate, and nothing is wrong with what it says.
         let unassigned = message.epoch == 0;
         let heard = Heard { at: at.steady, message };
         if judged.is_ok() {
-            self.others.teammates.insert(name.to_owned(), heard.clone());
+            keep(&mut self.others.teammates, name, heard);
         }
-        self.others.said.insert(name.to_owned(), heard);
+        keep(&mut self.others.said, name, heard);
         if unassigned { Ok(()) } else { judged }
     }
 
@@ -78,11 +109,11 @@ impl Inputs {
     /// does not.
     pub(crate) fn teammate(&self, name: &str, (at, time): (Times, RosTime), age_limit: f64) -> Option<Ahead> {
         let ours = self.assignment.as_ref();
-        let of_ours = |heard: &&Heard<LeaderState>| ours.is_none_or(|ours| same(ours, &heard.message).is_ok());
+        let of_ours = |heard: &&Heard<Spoken>| ours.is_none_or(|ours| same(ours, &heard.message).is_ok());
         let newest = self.others.said.get(name).filter(of_ours);
         let heard = newest.or_else(|| self.others.teammates.get(name))?;
         let said = &heard.message;
-        let stamp = RosTime::from(&said.header.stamp);
+        let stamp = said.stamp;
         if at.steady.seconds_since(heard.at).max(at.ros.seconds_since(stamp)) > age_limit {
             return None;
         }
@@ -100,18 +131,26 @@ impl Inputs {
 impl Others {
     /// The robots whose leader states arrived within `age_limit` seconds, in order of name.
     pub(crate) fn heard(&self, now: Steady, age_limit: f64) -> impl Iterator<Item = &str> {
-        let fresh = move |heard: &Heard<LeaderState>| now.seconds_since(heard.at) <= age_limit;
+        let fresh = move |heard: &Heard<Spoken>| now.seconds_since(heard.at) <= age_limit;
         self.said.iter().filter(move |(_, heard)| fresh(heard)).map(|(name, _)| name.as_str())
     }
 
     /// What `name` says of itself, if it was received within `age_limit` seconds.
-    pub(crate) fn said(&self, name: &str, now: Steady, age_limit: f64) -> Option<&LeaderState> {
+    pub(crate) fn said(&self, name: &str, now: Steady, age_limit: f64) -> Option<&Spoken> {
         let heard = self.said.get(name).filter(|heard| now.seconds_since(heard.at) <= age_limit)?;
         Some(&heard.message)
     }
 }
 
-fn same(ours: &Assignment, message: &LeaderState) -> Result<(), Refusal> {
+/// Each tick brings the same names again.
+fn keep(states: &mut BTreeMap<String, Heard<Spoken>>, name: &str, heard: Heard<Spoken>) {
+    match states.get_mut(name) {
+        Some(before) => *before = heard,
+        None => drop(states.insert(name.to_owned(), heard)),
+    }
+}
+
+fn same(ours: &Assignment, message: &Spoken) -> Result<(), Refusal> {
     if message.epoch != ours.epoch {
         return Err(Refusal::Epoch { theirs: message.epoch, ours: ours.epoch });
     }
@@ -124,18 +163,20 @@ fn same(ours: &Assignment, message: &LeaderState) -> Result<(), Refusal> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_msgs::msg::Point2;
 
     fn at(seconds: f64) -> Times {
         Times { ros: RosTime(0).plus_seconds(seconds), steady: Steady(0).plus_seconds(seconds) }
     }
 
-    fn state(stamp: f64, epoch: u64) -> LeaderState {
-        let mut state = LeaderState { epoch, goal_distance: 0.25, ..Default::default() };
-        state.header.stamp = RosTime(0).plus_seconds(stamp).into();
-        state.point_velocity = Point2 { x: 0.5, y: 0.0 };
-        state.place = Point2 { x: 2.0, y: 0.0 };
-        state
+    fn state(stamp: f64, epoch: u64) -> Spoken {
+        Spoken {
+            stamp: RosTime(0).plus_seconds(stamp),
+            epoch,
+            goal_distance: 0.25,
+            point_velocity: Point2 { x: 0.5, y: 0.0 },
+            place: Point2 { x: 2.0, y: 0.0 },
+            ..Spoken::default()
+        }
     }
 
     fn inputs(epoch: u64) -> Inputs {

@@ -1,0 +1,92 @@
+//! Runs from arm to stop, and those that outlive a process.
+
+use crate::bench::{Bench, FILE, ROBOTS, make};
+use trench_core::{Event, RosTime};
+use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState};
+use trench_msgs::visualization_msgs::MarkerArray;
+
+#[test]
+fn a_run_from_arm_to_stop() {
+    let mut bench = Bench::running();
+    let state: RunState = bench.last("/run_state").unwrap();
+    assert_eq!((state.state, RosTime::from(&state.t0)), (RunState::RUNNING, RosTime(101_000_000_000)));
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert_eq!(goals.goals.len(), 4);
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_APPROACH));
+    bench.seconds += 9.0;
+    bench.see(RobotState::STATUS_TRACKED);
+    let goals: Goals = bench.last("/goals").unwrap();
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_MOVING && goal.velocity.x > 0.06));
+    assert!(bench.call("stop").success);
+    let state: RunState = bench.last("/run_state").unwrap();
+    assert_eq!(state.state, RunState::STOPPED);
+}
+
+#[test]
+fn viewers_are_shown_the_formation_and_who_follows_whom() {
+    let mut bench = Bench::new(100.0, None);
+    bench.see(RobotState::STATUS_TRACKED);
+    let shown = |bench: &Bench| -> Vec<(String, usize)> {
+        let markers = bench.last::<MarkerArray>("/markers").unwrap().markers;
+        assert!(markers.iter().all(|marker| marker.header.frame_id == "map" && marker.lifetime.sec > 0));
+        markers.into_iter().map(|marker| (marker.ns, marker.points.len())).collect()
+    };
+    let queues = ["formation/segments", "formation/vertices"].repeat(2);
+    let queues: Vec<_> = queues.into_iter().map(|namespace| (namespace.to_owned(), 2)).collect();
+    assert_eq!(shown(&bench), queues, "before anyone is assigned");
+    let bench = Bench::running();
+    let goals = ("formation/goals".to_owned(), 4);
+    let arrow = ("formation/leaders".to_owned(), 2);
+    assert_eq!(shown(&bench), [queues, vec![goals, arrow.clone(), arrow]].concat());
+}
+
+#[test]
+fn nobody_arms_robots_that_are_not_seen() {
+    let mut bench = Bench::new(100.0, None);
+    let refused = bench.call("arm");
+    assert!(!refused.success && refused.message.contains("no /team_state"), "{refused:?}");
+    bench.see(RobotState::STATUS_LOST);
+    let refused = bench.call("arm");
+    assert_eq!(refused.message, "not localised: robot1, robot2, robot3, robot4");
+}
+
+#[test]
+fn a_process_that_died_goes_on_where_it_was() {
+    let mut died = Bench::running();
+    let before: Assignment = {
+        died.see(RobotState::STATUS_TRACKED);
+        let mut again = Bench::new(104.0, Some(died.checkpoint()));
+        again.see(RobotState::STATUS_TRACKED);
+        let state: RunState = again.last("/run_state").unwrap();
+        assert_eq!((state.state, RosTime::from(&state.t0)), (RunState::RUNNING, RosTime(101_000_000_000)));
+        assert_eq!(again.last::<Goals>("/goals").unwrap().goals.len(), 4);
+        again.last("/assignment").unwrap()
+    };
+    assert_eq!((before.epoch, before.members.len()), (1, 4));
+}
+
+#[test]
+fn yesterday_s_run_does_not_go_on() {
+    let state = |bench: &Bench| bench.last::<RunState>("/run_state").unwrap().state;
+    let died = Bench::running();
+    assert_eq!(state(&Bench::new(3600.0, Some(died.checkpoint()))), RunState::IDLE, "too old");
+    assert_eq!(state(&Bench::new(50.0, Some(died.checkpoint()))), RunState::IDLE, "from the future");
+    let mut ended = Bench::running();
+    ended.handle(Event::Shutdown);
+    assert_eq!(state(&Bench::new(102.0, Some(ended.checkpoint()))), RunState::IDLE, "it ended cleanly");
+    assert_eq!(state(&Bench::new(102.0, Some(vec![1, 2, 3]))), RunState::IDLE, "damaged");
+}
+
+#[test]
+fn what_cannot_be_is_refused_at_start() {
+    let refused = |overrides: &[(&str, &str)]| make(overrides, None).map(drop).unwrap_err();
+    assert!(refused(&[ROBOTS]).contains("no formation is given"));
+    assert!(refused(&[FILE]).contains("no robot takes part"));
+    let order = refused(&[FILE, ROBOTS, ("chain.order", "nearest_first")]);
+    assert!(order.contains("chain.order") && order.contains("write nearest or places"), "{order}");
+    let five = ("robots", "[a, b, c, d, e]");
+    assert!(refused(&[FILE, five]).contains("5 robots, but the formation square has 4 places"));
+    let twice = ("robots", "[robot1, robot2, robot1]");
+    assert!(refused(&[FILE, twice]).contains("two robots have the name robot1"));
+    assert!(refused(&[("formation_file", "nowhere.yaml"), ROBOTS]).contains("formation_file"));
+}
