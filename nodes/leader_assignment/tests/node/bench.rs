@@ -4,6 +4,7 @@ use leader_assignment::description;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{
     Assignment, LeaderState, LinkStatus, RobotState, SetFormationRequest, SetFormationResponse, TeamState,
 };
@@ -57,7 +58,7 @@ pub(crate) struct Bench {
     pub(crate) out: Outbox,
     pub(crate) seconds: f64,
     /// The last one before the last call of a service.
-    assignment: Option<Assignment>,
+    pub(crate) assignment: Option<Assignment>,
 }
 
 impl Bench {

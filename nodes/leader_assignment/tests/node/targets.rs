@@ -1,11 +1,11 @@
 //! Formations in the frame of a target, which moves, jumps, falls silent or is a robot.
 
 use crate::bench::{Bench, FILE, OnTarget, make_of, said};
-use trench_core::{Action, Event};
-use trench_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
+use trench_core::Event;
+use trench_msgs::Encode;
+use trench_msgs::diagnostic_msgs::DiagnosticStatus;
 use trench_msgs::msg::{Goals, RobotState};
 use trench_msgs::nav_msgs::Odometry;
-use trench_msgs::{Encode, Message};
 
 #[test]
 fn a_formation_in_the_target_s_frame_moves_and_turns_with_it() {
