@@ -179,7 +179,7 @@ fn every_kind_of_segment_is_read_and_told_to_others() {
     for (text, length, half_way) in kinds {
         let line = "{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}";
         let file = GOOD.replace(line, text).replace("  starts: [[0.5, 0.5]]\n", "");
-        let file = file.replace("vertices: [[1.5, 0.5]]", "chain: {robots: 1, spacing: 0.4}");
+        let file = file.replace("[[1.5, 0.5]]", &format!("[{half_way:?}]"));
         let plan = parse("pair.yaml", &file).unwrap();
         let curve = &plan.queues[0].curve;
         assert!((curve.length() - length).abs() < 1e-9, "{text}: {} m long", curve.length());

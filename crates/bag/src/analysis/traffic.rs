@@ -84,10 +84,15 @@ fn since(log_time: u64, t0: i64) -> f64 {
     RosTime(i64::try_from(log_time).unwrap_or(i64::MAX)).seconds_since(RosTime(t0))
 }
 
-/// Whether messages of a type begin with a header: its definition says so.
+/// Whether messages of a type begin with a header: its definition says so. Constants are no part of messages.
 pub(super) fn is_stamped(definition: &str) -> bool {
     let code = |line: &str| line.split('#').next().unwrap_or_default().trim().to_owned();
-    let first = definition.lines().map(code).find(|line| !line.is_empty()).unwrap_or_default();
+    let is_constant = |line: &str| {
+        let mut words = line.split_whitespace().skip(1);
+        words.next().is_some_and(|name| name.contains('=')) || words.next().is_some_and(|next| next.starts_with('='))
+    };
+    let mut fields = definition.lines().map(code).filter(|line| !line.is_empty() && !is_constant(line));
+    let first = fields.next().unwrap_or_default();
     let mut words = first.split_whitespace();
     matches!(words.next(), Some("std_msgs/Header" | "std_msgs/msg/Header" | "Header")) && words.next().is_some()
 }
@@ -114,7 +119,8 @@ mod tests {
         check("std_msgs/Header header\nfloat64 x\n", true);
         check("# What it is.\n\nstd_msgs/Header header   # stamp\n", true);
         check("float64 x\nstd_msgs/Header header\n", false);
-        check("uint8 A=1\nstd_msgs/Header header\n", false);
+        check("uint8 A=1\nuint8 B = 2\n\nstd_msgs/Header header\n", true);
+        check("uint8 A=1\nuint8 b\nstd_msgs/Header header\n", false);
         check("", false);
     }
 
