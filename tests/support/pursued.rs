@@ -18,8 +18,9 @@ const OBSTACLES: usize = 7;
 /// and what a robot is off by where it stands.
 const NEUTRAL: [f64; 2] = [0.26 - FORMED, 0.34 + FORMED];
 
-/// Holds a pursuit against its bounds and gives what it shows in a line. Two things disturb: the start, from anywhere, and the field, as long as an obstacle is
-/// within reach of some robot's way to its segment. In the field the segments sweep over obstacles without a pause.
+/// Holds a pursuit against its bounds and gives what it shows in a line. Two things disturb: the start, from anywhere, and the field,
+/// as long as an obstacle is within reach of some robot's way to its segment. In the field the segments sweep over obstacles
+/// without a pause.
 pub(crate) fn judge(conformed: &Conformed, what: &str) -> String {
     let field = conformed.hindrance.until;
     let disturbances = [("start", [0.0, DEPARTURE]), ("field", [field, f64::INFINITY])];

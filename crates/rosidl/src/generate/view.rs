@@ -25,15 +25,15 @@ pub(super) fn closure(library: &Library, asked: &[&str]) -> Result<BTreeSet<Stri
 
 fn is_borrowed(field: &Field) -> bool {
     match (&field.base, field.shape) {
-        (Base::String { .. }, Shape::Single) | (Base::String { bound: None }, Shape::Sequence) => true,
+        (Base::String { .. }, Shape::Single) => true,
         (Base::Primitive(primitive), Shape::Sequence) => matches!(primitive, Primitive::UInt8 | Primitive::Byte),
-        _ => false,
+        _ => is_list(field),
     }
 }
 
 /// Whether the borrowed form is a list of its own, of what points into the bytes read.
 fn is_list(field: &Field) -> bool {
-    matches!(field.base, Base::String { .. }) && field.shape == Shape::Sequence
+    matches!((&field.base, field.shape), (Base::String { bound: None }, Shape::Sequence))
 }
 
 pub(super) fn generate(context: &Context, definition: &Definition) -> Result<String, Error> {
@@ -42,7 +42,7 @@ pub(super) fn generate(context: &Context, definition: &Definition) -> Result<Str
     let mut types = Vec::new();
     for field in &definition.fields {
         types.push(match (&field.base, field.shape) {
-            (Base::String { .. }, _) if is_borrowed(field) && is_list(field) => "::std::vec::Vec<&'a str>".to_owned(),
+            _ if is_list(field) => "::std::vec::Vec<&'a str>".to_owned(),
             (Base::String { .. }, _) if is_borrowed(field) => "&'a str".to_owned(),
             (Base::Primitive(_), _) if is_borrowed(field) => "&'a [u8]".to_owned(),
             (Base::Nested(nested), Shape::Single) if context.views.contains(nested) => {

@@ -113,11 +113,10 @@ impl Inputs {
         let newest = self.others.said.get(name).filter(of_ours);
         let heard = newest.or_else(|| self.others.teammates.get(name))?;
         let said = &heard.message;
-        let stamp = said.stamp;
-        if at.steady.seconds_since(heard.at).max(at.ros.seconds_since(stamp)) > age_limit {
+        if at.steady.seconds_since(heard.at).max(at.ros.seconds_since(said.stamp)) > age_limit {
             return None;
         }
-        let elapsed = time.seconds_since(stamp).clamp(0.0, age_limit + INTERVAL);
+        let elapsed = time.seconds_since(said.stamp).clamp(0.0, age_limit + INTERVAL);
         let velocity = vector(&said.point_velocity);
         let state = PointState { position: vector(&said.point) + elapsed * velocity, velocity };
         let ours = of_ours(&heard);

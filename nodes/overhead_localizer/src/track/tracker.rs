@@ -71,6 +71,7 @@ const START_SIGMA: [f64; 3] = [0.06, 0.06, 0.3];
 /// known of its speed is void.
 const PUSHED: f64 = 31.0;
 const FREER: f64 = 10.0;
+
 impl Tracker {
     /// A tracker that has seen nothing yet; `seed` is for the noise of [`Settings::added_sigma`].
     #[must_use]
