@@ -14,6 +14,7 @@ mod clock;
 mod exit;
 mod help;
 mod journals;
+mod latency_request;
 mod lease;
 mod log;
 mod memory;

@@ -1,6 +1,7 @@
 //! The event loop: one thread for all cores of a process.
 
 use crate::clock::steady_now;
+use crate::latency_request::LatencyRequest;
 use crate::node::{Node, Wake};
 use crate::priority::{take_turn, threads_wait_turn};
 use crate::signals::Signals;
@@ -32,6 +33,9 @@ const LEISURE_SECONDS: f64 = 0.004;
 /// what the frame will need.
 const AHEAD_SECONDS: f64 = 0.001;
 
+/// How much later than expected it may come and still finds processors awake, s.
+const LATE_SECONDS: f64 = 0.001;
+
 /// What wakes a node more seldom, s, is not waited for.
 const LONGEST_SECONDS: f64 = 0.1;
 
@@ -53,6 +57,8 @@ pub(crate) struct Process {
     topics: Topics,
     /// When to take what has come without waking.
     leisure: Option<Steady>,
+    /// Of processes in the control loop, where the system allows it.
+    awake: Option<LatencyRequest>,
     pub(crate) nodes: Vec<Node>,
     /// Lives as long as the endpoints of the nodes.
     pub(crate) network: Box<dyn Network>,
@@ -80,6 +86,7 @@ impl Process {
             wakes: vec![None; OWN_TOKENS],
             topics: Topics::new().map_err(system("cannot make an event loop"))?,
             leisure: None,
+            awake: None,
             nodes: Vec::new(),
             network,
             host,
@@ -101,6 +108,7 @@ impl Process {
     pub(crate) fn run(mut self) -> io::Result<u8> {
         // All threads are there.
         let in_real_time = take_turn();
+        self.awake = in_real_time.then(LatencyRequest::open).flatten();
         for node in &mut self.nodes {
             node.debug(if in_real_time { "runs with real-time priority" } else { "runs with ordinary priority" });
         }
@@ -155,7 +163,7 @@ impl Process {
             }
             None => {}
         }
-        self.leisure = self.topics.some_wait().then(|| self.leisure_after(now));
+        self.leisure = (self.topics.some_wait() || self.awake.is_some()).then(|| self.leisure_after(now));
         Ok(())
     }
 
@@ -203,6 +211,7 @@ impl Process {
         if at_leisure || self.nodes.iter().any(|node| node.is_due(now)) {
             self.topics.take_waiting(now, &mut self.nodes)?;
         }
+        self.keep_awake(now, at_leisure);
         for node in &mut self.nodes {
             node.tick(now);
         }
@@ -211,7 +220,24 @@ impl Process {
             let flush = if node.flush() { None } else { Some(now.plus_seconds(FLUSH_SECONDS)) };
             next = next.into_iter().chain(node.next_tick()).chain(flush).min();
         }
-        self.timer.set(next.into_iter().chain(self.topics.next_tick()).chain(self.leisure).min())
+        let sleep = self.awake.as_ref().and_then(LatencyRequest::held).map(|(_, until)| until);
+        self.timer.set(next.into_iter().chain(self.topics.next_tick()).chain(self.leisure).chain(sleep).min())
+    }
+
+    /// From shortly before what comes at regular times until all of it has come, processors do not sleep: one takes longer to
+    /// wake than a controller to answer, and a frame wakes three one after the other.
+    fn keep_awake(&mut self, now: Steady, at_leisure: bool) {
+        let Some(awake) = &mut self.awake else { return };
+        if at_leisure {
+            let next = self.topics.next_beat(now).filter(|next| next.seconds_since(now) <= 2.0 * AHEAD_SECONDS);
+            if let Some(next) = next {
+                awake.hold(now, next.plus_seconds(LATE_SECONDS));
+            }
+        } else if let Some((since, until)) = awake.held()
+            && (until <= now || self.topics.next_beat(since).is_none_or(|next| next > until))
+        {
+            awake.release();
+        }
     }
 
     /// Last words, and time for them to leave.
