@@ -34,7 +34,7 @@ const LEISURE_SECONDS: f64 = 0.004;
 const AHEAD_SECONDS: f64 = 0.001;
 
 /// How much later than expected it may come and still finds processors awake, s.
-const LATE_SECONDS: f64 = 0.001;
+const LATE_SECONDS: f64 = 0.003;
 
 /// What wakes a node more seldom, s, is not waited for.
 const LONGEST_SECONDS: f64 = 0.1;
