@@ -4,6 +4,7 @@
 //! Ours are in [`msg`], those of every other package in a module of its name: [`geometry_msgs`], [`std_srvs`] and so on.
 
 mod camera_info;
+mod finite;
 mod image;
 mod message;
 mod registry;

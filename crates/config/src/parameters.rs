@@ -89,6 +89,35 @@ impl Parameters {
         usize::try_from(self.i64(name)?).map_err(|_| self.error(name, "is negative", "write 0 or more"))
     }
 
+    /// A string array parameter of names.
+    ///
+    /// # Errors
+    /// When no string array of this name was declared, or a name is empty or there twice.
+    pub fn names(&self, name: &str) -> Result<&[String], ConfigError> {
+        let names = self.str_list(name)?;
+        for (index, each) in names.iter().enumerate() {
+            if each.is_empty() {
+                return Err(self.error(name, "has an empty name", "give each robot a name"));
+            }
+            if names[..index].contains(each) {
+                return Err(self.error(name, format!("{each} is there twice"), "name each robot once"));
+            }
+        }
+        Ok(names)
+    }
+
+    /// As [`Parameters::names`], one at least.
+    ///
+    /// # Errors
+    /// As there, and where there is none.
+    pub fn some_names(&self, name: &str) -> Result<&[String], ConfigError> {
+        let names = self.names(name)?;
+        if names.is_empty() {
+            return Err(self.error(name, "there is no robot", format!("name them: {name}: [robot1, robot2]")));
+        }
+        Ok(names)
+    }
+
     /// A double array parameter of a fixed length, such as a position.
     ///
     /// # Errors

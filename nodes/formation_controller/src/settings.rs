@@ -140,7 +140,7 @@ impl Settings {
         }
         Ok(Self {
             robot,
-            team: parameters.str_list("team")?.to_vec(),
+            team: parameters.names("team")?.to_vec(),
             law_name: parameters.str("law")?.to_owned(),
             law: law(parameters, dead_band)?,
             dynamic: DynamicSettings::read(parameters)?.map(Arc::new),

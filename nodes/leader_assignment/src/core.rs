@@ -42,6 +42,8 @@ enum Dropped {
     Cdr(#[from] CdrError),
     #[error(transparent)]
     NotMaster(#[from] NotMaster),
+    #[error("a number in it is not finite")]
+    NotFinite,
 }
 
 /// Who goes where, and when.
@@ -150,7 +152,13 @@ impl LeaderAssignment {
             self.masters.entry(port).or_default().admit(source, at.steady)?;
         }
         match port {
-            TEAM_STATE => self.tick(at, TeamState::decode(cdr)?, sink),
+            TEAM_STATE => {
+                let team = TeamState::decode(cdr)?;
+                if !team.is_finite() {
+                    return Err(Dropped::NotFinite);
+                }
+                self.tick(at, team, sink);
+            }
             TARGET => self.hear_target(at, &Odometry::decode(cdr)?, sink),
             SET_FORMATION => self.formation_asked(at, &Formation::decode(cdr)?, sink),
             _ => self.hear_of_robot(at, port - ROBOTS, cdr)?,

@@ -18,6 +18,7 @@ mod held;
 mod markers;
 mod members;
 mod organise;
+mod room;
 mod run_machine;
 mod services;
 mod settings;

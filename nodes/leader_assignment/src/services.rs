@@ -2,7 +2,7 @@
 
 use crate::core::{FORMATION, LeaderAssignment};
 use crate::held::Held;
-use crate::settings::{admit_robots, within_field};
+use crate::settings::admit_robots;
 use crate::{Request, organise};
 use trench_core::{Condition, Level, RequestId, RosTime, Sink, Times};
 use trench_formation::Vector2;
@@ -86,7 +86,7 @@ impl LeaderAssignment {
         if robots.len() > plan.places() {
             return Err(format!("{} robots, but {} has {} places", robots.len(), plan.name, plan.places()));
         }
-        within_field(&plan, &self.settings.field)?;
+        self.settings.room.admit(&plan)?;
         let missing = self.unlocalised(&robots);
         if self.run.running() && !missing.is_empty() {
             return Err(format!("not localised: {}", missing.join(", ")));

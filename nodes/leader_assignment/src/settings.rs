@@ -1,10 +1,11 @@
 //! The parameters of leader_assignment.
 
+use crate::room::Room;
 use crate::team::TeamLimits;
 use crate::{ChainOrder, Seating, TargetLimits};
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::Files;
-use trench_plan::{Frame, Plan, QueuePlan};
+use trench_plan::Plan;
 
 /// What the node is told.
 #[derive(Debug, Clone)]
@@ -18,8 +19,7 @@ pub(crate) struct Settings {
     pub(crate) team: TeamLimits,
     /// The robot that is the target; empty: /target says where it is.
     pub(crate) target_robot: String,
-    /// Low corner and high corner, m; none: formations may be anywhere.
-    pub(crate) field: Option<[f64; 4]>,
+    pub(crate) room: Room,
 }
 
 pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
@@ -55,6 +55,9 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string("target.robot", "", "the robot that is the target; empty: whatever /target says").read_only(),
         P::double_list("field", &[], "m, x and y of the field's low corner, then of its high one; empty: anywhere")
             .read_only(),
+        P::double("body.radius", 0.08, "m, of the robots: places that are nearer to each other than two of them are refused")
+            .range(0.0, 10.0)
+            .read_only(),
     ]
 }
 
@@ -82,8 +85,8 @@ impl Settings {
                 format!("{} robots, but the formation {} has {} places", robots.len(), plan.name, plan.places());
             return Err(parameters.error("robots", problem, "give the queues more vertices or name fewer robots"));
         }
-        let field = field(parameters)?;
-        within_field(&plan, &field)
+        let room = Room { field: field(parameters)?, body_radius: parameters.f64("body.radius")? };
+        room.admit(&plan)
             .map_err(|problem| parameters.error("formation_file", problem, "take a larger field or move its places"))?;
         let settings = Self {
             library,
@@ -92,7 +95,7 @@ impl Settings {
             target: target_limits(parameters)?,
             team: team_limits(parameters)?,
             target_robot: parameters.str("target.robot")?.to_owned(),
-            field,
+            room,
         };
         Ok((settings, plan))
     }
@@ -138,22 +141,6 @@ fn field(parameters: &Parameters) -> Result<Option<[f64; 4]>, ConfigError> {
     Ok(Some(field))
 }
 
-/// Refuses a formation in the map with places outside the field; one in the target's frame goes where the target goes.
-pub(crate) fn within_field(plan: &Plan, field: &Option<[f64; 4]>) -> Result<(), String> {
-    let (Frame::Map, Some([low_x, low_y, high_x, high_y])) = (plan.frame, field) else { return Ok(()) };
-    let outside = |queue: &QueuePlan| {
-        let points = queue.places.iter().map(|place| queue.curve.at(place.end).point);
-        let mut beyond = points.filter(|p| !((*low_x..=*high_x).contains(&p.x) && (*low_y..=*high_y).contains(&p.y)));
-        beyond.next().map(|point| (queue.name.clone(), point))
-    };
-    match plan.queues.iter().find_map(outside) {
-        None => Ok(()),
-        Some((queue, point)) => {
-            Err(format!("a place of queue {queue} at ({:.3}, {:.3}) is outside the field", point.x, point.y))
-        }
-    }
-}
-
 /// The robots of a request, in order of name, if all are known and each is there once.
 pub(crate) fn admit_robots(asked: &[String], known: &[String]) -> Result<Vec<String>, String> {
     let mut robots = asked.to_vec();
@@ -168,14 +155,7 @@ pub(crate) fn admit_robots(asked: &[String], known: &[String]) -> Result<Vec<Str
 }
 
 fn robots(parameters: &Parameters) -> Result<Vec<String>, ConfigError> {
-    let mut robots = parameters.str_list("robots")?.to_vec();
-    if robots.is_empty() {
-        return Err(parameters.error("robots", "no robot takes part", "name them: robots: [robot1, robot2]"));
-    }
+    let mut robots = parameters.some_names("robots")?.to_vec();
     robots.sort();
-    if let Some(twice) = robots.windows(2).find(|pair| pair[0] == pair[1]) {
-        let problem = format!("two robots have the name {}", twice[0]);
-        return Err(parameters.error("robots", problem, "give each robot a name of its own"));
-    }
     Ok(robots)
 }

@@ -59,13 +59,7 @@ pub(crate) fn descriptors() -> Vec<P> {
 
 impl Settings {
     pub(crate) fn read(parameters: &Parameters) -> Result<Self, ConfigError> {
-        let robots = parameters.str_list("robots")?.to_vec();
-        if let Some(twice) = robots.iter().enumerate().find(|(index, name)| robots[..*index].contains(name)) {
-            return Err(parameters.error("robots", format!("{} is there twice", twice.1), "name each robot once"));
-        }
-        if robots.iter().any(String::is_empty) {
-            return Err(parameters.error("robots", "has an empty name", "give each robot a name"));
-        }
+        let robots = parameters.names("robots")?.to_vec();
         let [x, y, theta] = parameters.f64_array("laser.pose")?;
         Ok(Self {
             robots,

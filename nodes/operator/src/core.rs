@@ -122,14 +122,15 @@ fn interface(settings: &Settings) -> Interface {
 
 impl Operator {
     fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) {
-        // A message that does not decode, or of a second publisher, leaves the last good one in place: the nodes that drive report it.
+        // A message that does not decode or has numbers that are none, or of a second publisher, leaves the last good one in place: the nodes
+        // that drive report it.
         if port != RUN_STATE && self.masters.entry(port).or_default().admit(source, at.steady).is_err() {
             return;
         }
         match port {
-            TEAM_STATE => self.team = TeamState::decode(cdr).ok().or(self.team.take()),
+            TEAM_STATE => self.team = TeamState::decode(cdr).ok().filter(TeamState::is_finite).or(self.team.take()),
             GOALS => {
-                self.goals = Goals::decode(cdr).ok().or(self.goals.take());
+                self.goals = Goals::decode(cdr).ok().filter(Goals::is_finite).or(self.goals.take());
                 if self.runs.are_several() {
                     self.choose_run();
                 }

@@ -47,10 +47,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
 
 impl Settings {
     pub(crate) fn read(parameters: &Parameters) -> Result<Self, ConfigError> {
-        let robots = parameters.str_list("robots")?.to_vec();
-        if robots.is_empty() {
-            return Err(parameters.error("robots", "no robot takes part", "name them: robots: [robot1, robot2]"));
-        }
+        let robots = parameters.some_names("robots")?.to_vec();
         Ok(Self {
             duration: parameters.f64("duration")?,
             tolerance: parameters.f64("tolerance")?,

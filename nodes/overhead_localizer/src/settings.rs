@@ -271,23 +271,13 @@ fn pad_ids(parameters: &Parameters) -> Result<Vec<i64>, ConfigError> {
 
 /// The robots with their start poses, ordered by name.
 fn robots(parameters: &Parameters) -> Result<Vec<Robot>, ConfigError> {
-    let (names, poses) = (parameters.str_list("robots")?, parameters.f64_list("initial_poses")?);
-    if names.is_empty() {
-        return Err(parameters.error("robots", "is empty", "name at least one robot"));
-    }
+    let (names, poses) = (parameters.some_names("robots")?, parameters.f64_list("initial_poses")?);
     if !poses.is_empty() && poses.len() != 3 * names.len() {
         let problem = format!("has {} numbers for {} robots", poses.len(), names.len());
         return Err(parameters.error("initial_poses", problem, "write x, y and theta of each, or nothing"));
     }
     let mut robots: Vec<Robot> = Vec::with_capacity(names.len());
     for (index, name) in names.iter().enumerate() {
-        if name.is_empty() {
-            return Err(parameters.error("robots", "has an empty name", "give each robot a name"));
-        }
-        if robots.iter().any(|robot| robot.name == *name) {
-            let problem = format!("names two robots {name}");
-            return Err(parameters.error("robots", problem, "give each robot a name of its own"));
-        }
         let start = match poses.get(3 * index..3 * index + 3) {
             Some(&[x, y, theta]) => Some(Pose2 { x, y, theta: track::wrap(theta) }),
             _ => None,

@@ -128,10 +128,7 @@ impl Settings {
 
 /// Names and ids, each once.
 fn robots(parameters: &Parameters) -> Result<Vec<(String, u8)>, ConfigError> {
-    let (names, ids) = (parameters.str_list("robots")?, parameters.i64_list("ids")?);
-    if names.is_empty() {
-        return Err(parameters.error("robots", "there is no robot", "name them: robots: [robot1, robot2]"));
-    }
+    let (names, ids) = (parameters.some_names("robots")?, parameters.i64_list("ids")?);
     let given = || ids.iter().map(|id| *id as u8).collect();
     let ids: Vec<u8> = if ids.is_empty() { (1..=names.len().min(255) as u8).collect() } else { given() };
     if ids.len() != names.len() {
@@ -139,9 +136,6 @@ fn robots(parameters: &Parameters) -> Result<Vec<(String, u8)>, ConfigError> {
         return Err(parameters.error("ids", problem, "write one id a robot"));
     }
     for (index, (name, id)) in names.iter().zip(&ids).enumerate() {
-        if names[..index].contains(name) {
-            return Err(parameters.error("robots", format!("{name} is there twice"), "name each robot once"));
-        }
         if ids[..index].contains(id) {
             return Err(parameters.error("ids", format!("{id} is there twice"), "give each robot its own id"));
         }

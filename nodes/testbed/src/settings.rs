@@ -211,10 +211,7 @@ fn lasers(parameters: &Parameters) -> Result<Vec<usize>, ConfigError> {
 
 /// The robots' ids, each once, as many as names.
 fn ids(parameters: &Parameters) -> Result<Vec<u8>, ConfigError> {
-    let (names, ids) = (parameters.str_list("robots")?, parameters.i64_list("ids")?);
-    if let Some(twice) = names.iter().enumerate().find(|(index, name)| names[..*index].contains(name)) {
-        return Err(parameters.error("robots", format!("{} is there twice", twice.1), "name each robot once"));
-    }
+    let (names, ids) = (parameters.names("robots")?, parameters.i64_list("ids")?);
     if names.len() >= MAX_ROBOTS {
         let problem = format!("a base station has room for {}", MAX_ROBOTS - 1);
         return Err(parameters.error("robots", problem, "take fewer robots"));

@@ -73,6 +73,27 @@ fn an_empty_list_takes_the_declared_type() {
 }
 
 #[test]
+fn a_name_is_there_once() {
+    let names = |list: &str| {
+        let parameters = resolved(&[file(&format!("/**:\n  ros__parameters:\n    robots: {list}"))]).unwrap();
+        let names = parameters.names("robots").map(<[String]>::to_vec);
+        (names, parameters.some_names("robots").map(<[String]>::len).map_err(|error| error.to_string()))
+    };
+    assert_eq!(names("[b, a]"), (Ok(vec!["b".to_owned(), "a".to_owned()]), Ok(2)));
+    let (none, refused) = names("[]");
+    assert_eq!(none, Ok(Vec::new()));
+    assert_eq!(refused.unwrap_err(), "p.yaml:3: robots = []: there is no robot; name them: robots: [robot1, robot2]");
+    let (twice, refused) = names("[a, b, a]");
+    let expected = "p.yaml:3: robots = [\"a\", \"b\", \"a\"]: a is there twice; name each robot once";
+    assert_eq!((twice.unwrap_err().to_string(), refused.unwrap_err()), (expected.to_owned(), expected.to_owned()));
+    let (empty, _) = names("[a, '']");
+    assert_eq!(
+        empty.unwrap_err().to_string(),
+        "p.yaml:3: robots = [\"a\", \"\"]: has an empty name; give each robot a name"
+    );
+}
+
+#[test]
 fn mistakes_are_named_with_their_remedy() {
     for (text, expected) in [
         (

@@ -22,6 +22,9 @@ impl Inputs {
             return Err(Refusal::Epoch { theirs: message.epoch, ours });
         }
         timely(at, RosTime::from(&message.header.stamp), self.goals.stamp())?;
+        if !message.is_finite() {
+            return Err(Refusal::NotFinite);
+        }
         let is_new = message.epoch != self.goals.epoch();
         self.goals = Said(Some(Heard { at: at.steady, message }));
         if is_new {

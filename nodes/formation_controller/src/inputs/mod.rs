@@ -53,7 +53,7 @@ pub(crate) struct Inputs {
 }
 
 impl Inputs {
-    /// Takes a team state, unless it is older than the one before or from the future.
+    /// Takes a team state, unless it is older than the one before or from the future, or a number in it is none.
     ///
     /// # Errors
     /// Why it is refused.
@@ -61,6 +61,9 @@ impl Inputs {
         let stamp = RosTime::from(&message.header.stamp);
         let before = self.team.as_ref().map(|before| RosTime::from(&before.message.header.stamp));
         timely(at, stamp, before)?;
+        if !message.is_finite() {
+            return Err(Refusal::NotFinite);
+        }
         if let Some(elapsed) = before.map(|before| stamp.seconds_since(before))
             && (0.005..0.2).contains(&elapsed)
         {

@@ -1,9 +1,9 @@
 //! What a tick makes of what was heard.
 
-use crate::bench::{Bench, formation};
+use crate::bench::{Bench, PERIOD, formation};
 use trench_core::{Event, RosTime};
 use trench_msgs::geometry_msgs::TwistStamped;
-use trench_msgs::msg::{Goals, LeaderState, RobotState, RunState, TeamState};
+use trench_msgs::msg::{Goal, Goals, LeaderState, RobotState, RunState, TeamState};
 use trench_msgs::std_msgs::Bool;
 
 #[test]
@@ -150,20 +150,54 @@ fn goals_of_another_time_do_not_count() {
 #[test]
 fn numbers_that_are_none_never_reach_the_wheels() {
     for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e308] {
-        for (field, on_a_segment) in (0..5).flat_map(|field| [(field, false), (field, true)]) {
+        for (field, on_a_segment, whose) in
+            (0..5).flat_map(|field| [(field, false, 0), (field, true, 0), (field, false, 1), (field, true, 1)])
+        {
             let mut bench = Bench::new();
+            bench.others = vec![RobotState { name: "robot2".to_owned(), status: 1, x: 1.9, ..RobotState::default() }];
             if on_a_segment {
                 // Where it is from its segment is told to the others.
                 formation(&mut bench);
             }
             bench.running();
+            bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+            bench.seconds += PERIOD;
             let mut team = bench.team(RobotState::STATUS_TRACKED, 0.0);
-            let robot = &mut team.robots[0];
+            let robot = &mut team.robots[whose];
             *[&mut robot.x, &mut robot.y, &mut robot.theta, &mut robot.v, &mut robot.omega][field] = bad;
+            let what = format!("{bad} in field {field} of robot {whose}");
             let command = bench.tick(&team).twist;
-            assert!(command.linear.x.is_finite() && command.angular.z.is_finite(), "{bad} in field {field}");
-            assert!(command.linear.x.abs() <= 0.3);
+            assert!(command.linear.x.is_finite() && command.angular.z.is_finite(), "{what}");
+            assert!(command.linear.x.abs() <= 0.3, "{what}");
+            let said = bench.says().contains("a message on /team_state was dropped: a number in it is not finite");
+            assert_eq!(said, !bad.is_finite(), "{what}: {}", bench.says());
         }
+    }
+}
+
+#[test]
+fn goals_with_numbers_that_are_none_leave_the_last_ones_in_force() {
+    for (bad, field) in [f64::NAN, f64::INFINITY].into_iter().flat_map(|bad| (0..6).map(move |field| (bad, field))) {
+        let mut bench = Bench::new();
+        bench.running();
+        let first = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        bench.seconds += PERIOD;
+        let goal = Goal { robot: "robot1".to_owned(), position: bench.goal.clone(), remaining: 1e9, ..Goal::default() };
+        let mut goals = Goals { goals: vec![goal], ..Goals::default() };
+        goals.header.stamp = bench.times().ros.into();
+        let Goals { frame, goals: each, .. } = &mut goals;
+        *[
+            &mut each[0].position.x,
+            &mut each[0].velocity.y,
+            &mut each[0].acceleration.x,
+            &mut each[0].remaining,
+            &mut frame.theta,
+            &mut frame.position.y,
+        ][field] = bad;
+        bench.send("/goals", &goals);
+        assert!(bench.says().contains("a message on /goals was dropped: a number in it is not finite"), "{field}");
+        let next = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        assert!(next >= first, "{bad} in field {field}: {first}, then {next}");
     }
 }
 

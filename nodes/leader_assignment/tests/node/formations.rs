@@ -130,6 +130,16 @@ fn a_formation_larger_than_the_field_is_refused() {
 }
 
 #[test]
+fn a_formation_whose_bodies_would_overlap_is_refused() {
+    let mut bench = Bench::running();
+    let answer = bench.set_formation("", 0.1, &[]);
+    assert!(!answer.success && answer.message.contains(" m apart: two bodies need 0.160 m"), "{answer:?}");
+    let large = ("body.radius", "0.6");
+    let refused = make(&[FILE, ROBOTS, large], None).map(drop).unwrap_err();
+    assert!(refused.contains("formation_file") && refused.contains("two bodies need 1.200 m"), "{refused}");
+}
+
+#[test]
 fn a_formation_may_come_as_a_message() {
     let mut bench = Bench::running();
     let mut formation: Formation = Bench::new(0.0, None).last("/formation").unwrap();

@@ -1,6 +1,6 @@
 //! Runs from arm to stop, and those that outlive a process.
 
-use crate::bench::{Bench, FILE, ROBOTS, make};
+use crate::bench::{Bench, FILE, ROBOTS, make, said};
 use trench_core::{Event, RosTime};
 use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState};
 use trench_msgs::visualization_msgs::MarkerArray;
@@ -51,6 +51,25 @@ fn nobody_arms_robots_that_are_not_seen() {
 }
 
 #[test]
+fn a_team_state_with_numbers_that_are_none_is_said_and_dropped() {
+    for (bad, field) in [f64::NAN, f64::NEG_INFINITY].into_iter().flat_map(|bad| (0..5).map(move |field| (bad, field))) {
+        let mut bench = Bench::running();
+        bench.see(RobotState::STATUS_TRACKED);
+        let before: Goals = bench.last("/goals").unwrap();
+        bench.seconds += 0.1;
+        let mut robot = RobotState { name: "robot1".to_owned(), status: 1, ..RobotState::default() };
+        *[&mut robot.x, &mut robot.y, &mut robot.theta, &mut robot.v, &mut robot.omega][field] = bad;
+        bench.see_robots(vec![robot]);
+        assert_eq!(bench.last::<Goals>("/goals").unwrap(), before, "no goals of it");
+        let (_, text) = said(&bench, "messages");
+        assert!(text.contains("a message on /team_state was dropped: a number in it is not finite"), "{text}");
+        bench.see(RobotState::STATUS_TRACKED);
+        let after: Goals = bench.last("/goals").unwrap();
+        assert!(after.goals.len() == 4 && after.is_finite() && after != before, "{bad} in field {field}");
+    }
+}
+
+#[test]
 fn a_process_that_died_goes_on_where_it_was() {
     let mut died = Bench::running();
     let before: Assignment = {
@@ -81,12 +100,12 @@ fn yesterday_s_run_does_not_go_on() {
 fn what_cannot_be_is_refused_at_start() {
     let refused = |overrides: &[(&str, &str)]| make(overrides, None).map(drop).unwrap_err();
     assert!(refused(&[ROBOTS]).contains("no formation is given"));
-    assert!(refused(&[FILE]).contains("no robot takes part"));
+    assert!(refused(&[FILE]).contains("there is no robot"));
     let order = refused(&[FILE, ROBOTS, ("chain.order", "nearest_first")]);
     assert!(order.contains("chain.order") && order.contains("write nearest or places"), "{order}");
     let five = ("robots", "[a, b, c, d, e]");
     assert!(refused(&[FILE, five]).contains("5 robots, but the formation square has 4 places"));
     let twice = ("robots", "[robot1, robot2, robot1]");
-    assert!(refused(&[FILE, twice]).contains("two robots have the name robot1"));
+    assert!(refused(&[FILE, twice]).contains("robots = [\"robot1\", \"robot1\"]: robot1 is there twice; name each robot once"));
     assert!(refused(&[("formation_file", "nowhere.yaml"), ROBOTS]).contains("formation_file"));
 }

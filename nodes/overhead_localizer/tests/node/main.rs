@@ -371,7 +371,7 @@ fn wrong_parameters_stop_the_node_before_it_works() {
     check(
         "[robot2, robot1]",
         "[robot1, robot1]",
-        "localizer.yaml:3: robots = [\"robot1\", \"robot1\"]: names two robots robot1",
+        "localizer.yaml:3: robots = [\"robot1\", \"robot1\"]: robot1 is there twice; name each robot once",
     );
     check(
         "1.5, 1.2,",
