@@ -89,6 +89,22 @@ fn the_tuned_profile_forms_from_rendered_frames() {
     println!("{worst} from rendered frames");
 }
 
+#[test]
+fn the_tuned_profile_forms_from_sixty_frames_a_second() {
+    for (file, _) in EXPERIMENTS {
+        let finished = drive(file, &[("bed", "fast"), ("render", "true"), ("duration", "40.0")]);
+        let summary = judged(&finished, &[]);
+        no_contact(&summary, file);
+        assert!(final_distances(&summary).iter().all(|distance| *distance <= 0.02), "{file}: {summary}");
+        assert!(summary.max_shape_error.unwrap() <= 0.02, "{file}: {summary}");
+        for (name, track) in &finished.run.robots {
+            let (first, last) = (track.goals.first().unwrap().time, track.goals.last().unwrap().time);
+            let ticks = (track.goals.len() - 1) as f64 / (last - first);
+            assert!((59.0..=61.0).contains(&ticks), "{file}: {ticks} ticks a second for {name}");
+        }
+    }
+}
+
 /// What steppers miss where the radio loses nothing would be the controllers' fault: after a lost frame a command comes late, and
 /// after several the robot stops by itself, which no ramp helps against.
 #[test]

@@ -30,6 +30,20 @@ fn live_square_tuned() {
     tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "square.launch.yaml");
 }
 
+/// Rendered, seen, answered and sent in half of the time that other tests have.
+#[test]
+fn live_square_at_sixty_frames_a_second() {
+    let launch = Launch::new(domain(0));
+    let (status, text) = launch.finish(launch.recording("square.launch.yaml", &["bed:=fast", "duration:=30.0"]));
+    assert!(status.success(), "{status}\n{text}");
+    tuned::keeps_its_bounds(&launch.judge(&[]));
+    let recorded = launch.recorded();
+    let topic = recorded.topic("/team_state").unwrap();
+    let ticks = recorded.messages().filter(|message| message.as_ref().unwrap().topic == topic).count();
+    println!("{ticks} ticks in 30 s");
+    assert!(ticks >= 1_710, "{ticks} ticks in 30 s: more than a twentieth of the frames never came");
+}
+
 /// `trench router`, and where it listens.
 struct Router(Child, String);
 

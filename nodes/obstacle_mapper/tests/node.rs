@@ -185,6 +185,45 @@ fn what_lasers_see_becomes_an_obstacle_with_one_identity() {
 }
 
 #[test]
+fn what_two_robots_see_of_a_wall_becomes_one_obstacle() {
+    let places = [[0.5, 0.0], [1.2, 0.3]];
+    // robot1 sees the wall's right half, robot2 its left one, from its own place.
+    let half = |bench: &Bench, robot: usize| {
+        let mut half = scan(bench.header(), places[robot], None);
+        for (ray, range) in half.ranges.iter_mut().enumerate() {
+            let angle = if ray < 180 { ray as f64 } else { ray as f64 - 360.0 };
+            let kept = if robot == 0 { angle <= 3.0 } else { angle >= -22.0 };
+            if !kept {
+                *range = f32::INFINITY;
+            }
+        }
+        half.to_cdr()
+    };
+    let seen = |eyes: &[usize]| -> Vec<(f64, f64)> {
+        let mut bench = Bench::new(&[TWO]);
+        for _ in 0..5 {
+            bench.seconds += 0.1;
+            for robot in eyes {
+                let scan = half(&bench, *robot);
+                bench.send(&format!("/robot{}/scan", robot + 1), 10 + *robot as u8, &scan);
+            }
+            bench.team(&places);
+        }
+        let spans = bench.wake().obstacles.into_iter().map(|one| {
+            let heights = one.hull.iter().map(|point| point.y);
+            (heights.clone().fold(f64::MAX, f64::min), heights.fold(f64::MIN, f64::max))
+        });
+        spans.collect()
+    };
+    let [(low, high)] = seen(&[0])[..] else { panic!("robot1: {:?}", seen(&[0])) };
+    assert!(low < -0.9 && high < 0.2, "{low} to {high}");
+    let [(low, high)] = seen(&[1])[..] else { panic!("robot2: {:?}", seen(&[1])) };
+    assert!(low > -0.2 && high > 0.9, "{low} to {high}");
+    let [(low, high)] = seen(&[0, 1])[..] else { panic!("both: {:?}", seen(&[0, 1])) };
+    assert!(low < -0.9 && high > 0.9, "{low} to {high}");
+}
+
+#[test]
 fn what_nobody_sees_any_more_is_forgotten() {
     let mut bench = Bench::new(&[TWO, ("scan.memory", "1.0")]);
     bench.team(&[[0.5, 0.0], [0.5, 5.0]]);

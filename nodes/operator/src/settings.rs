@@ -38,7 +38,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
             &[],
             "m, x and y of each point of a target's way; empty: the operator leads no target",
         ),
-        ParameterDescriptor::double("target.speed", 0.06, "m/s").range(0.001, 10.0),
+        ParameterDescriptor::double("target.speed", 0.06, "m/s, of the target on its way").range(0.001, 10.0),
         ParameterDescriptor::double("target.acceleration", 0.05, "m/s^2, at both ends of the way").range(0.001, 100.0),
         ParameterDescriptor::double("target.heading", 0.0, "rad, of a target that has one waypoint").range(-10.0, 10.0),
         ParameterDescriptor::double("target.depart", 10.0, "s from t0, when it sets out").range(0.0, 86_400.0),

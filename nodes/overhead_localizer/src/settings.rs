@@ -86,7 +86,7 @@ pub(crate) fn descriptors() -> Vec<P> {
              whose codes name the robots (pad_ids)",
         )
         .read_only(),
-        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0).read_only(),
+        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m, of each disc").range(0.005, 1.0).read_only(),
         P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres")
             .range(0.005, 1.0)
             .read_only(),

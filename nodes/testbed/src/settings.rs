@@ -53,7 +53,7 @@ pub(crate) fn descriptors() -> Vec<P> {
         P::string("serial.link", "", "where the link to the base station's pseudo-terminal is made"),
         P::integer("serial.baud", 115_200, "bit/s at which the line is paced").range(1200.0, 4_000_000.0),
         P::double("camera.rate", 30.0, "frames a second").range(1.0, 100.0),
-        P::double("camera.exposure", 0.01, "s").range(0.0, 0.1),
+        P::double("camera.exposure", 0.01, "s, for which a frame gathers light").range(0.0, 0.1),
         P::double("camera.delay", 0.035, "s, from the middle of the exposure to the frame").range(0.0, 0.2),
         P::string(
             "camera.info_file",
@@ -77,7 +77,7 @@ pub(crate) fn descriptors() -> Vec<P> {
             "pixel, standard deviation of each disc's u and v; as of the own detector",
         )
         .range(0.0, 10.0),
-        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m").range(0.005, 1.0),
+        P::double("pad.disc_diameter", Pad::NOMINAL.disc_diameter, "m, of each disc").range(0.005, 1.0),
         P::double("pad.disc_spacing", Pad::NOMINAL.disc_spacing, "m, between the discs' centres").range(0.005, 1.0),
         P::double("pad.height", Pad::NOMINAL.height, "m, above the floor").range(0.0, 1.0),
         P::string("obstacles_file", "", "YAML list of obstacles; empty: none"),

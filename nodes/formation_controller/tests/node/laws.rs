@@ -91,3 +91,40 @@ fn laws_change_while_the_robot_drives() {
         assert!(state.goal_distance > 0.0 && state.limited_by & LeaderState::LIMIT_STALE == 0, "{law}: {state:?}");
     }
 }
+
+/// Whatever law drives: what a controller refuses changes nothing, to the last bit; nor does what is of no use to this law.
+#[test]
+fn refused_changes_leave_every_law_as_it_was() {
+    const OF_CHAINS: [&str; 3] = ["zones.radii", "obstacles.cut", "trench.shape"];
+    let bad = [
+        ("zones.radii", "[0.3, 0.2, 0.4, 0.5, 1.0]"),
+        ("damping", "-1.0"),
+        ("law", "magic"),
+        ("obstacles.cut", "0.1"),
+        ("trench.shape", "ditch"),
+        ("trench.a", "0.0"),
+    ];
+    for law in LAWS {
+        let driven = |change: Option<(&str, &str)>| {
+            let mut bench = Bench::of(make(&[("team", "[robot1, robot2]"), ("law", law)]).unwrap());
+            formation(&mut bench);
+            bench.pose = Pose::new(0.6, 1.1, 0.0);
+            for tick in 0..6 {
+                leader(&mut bench);
+                bench.drive(1);
+                if tick == 2 && let Some(change) = change {
+                    // What is of the wrong kind or out of range is refused before the node hears of it.
+                    let set = parameters(&[("team", "[robot1, robot2]"), ("law", law), change])
+                        .and_then(|set| bench.core.set_parameters(&set).map_err(|error| error.to_string()));
+                    match set {
+                        Err(refusal) => assert!(refusal.contains(change.0), "{law}, {change:?}: {refusal}"),
+                        Ok(()) => assert!(law != "chain" && OF_CHAINS.contains(&change.0), "{law}: {change:?}"),
+                    }
+                }
+            }
+            bench.last_command()
+        };
+        let undisturbed = driven(None);
+        bad.into_iter().for_each(|change| assert_eq!(driven(Some(change)), undisturbed, "{law}: {change:?}"));
+    }
+}

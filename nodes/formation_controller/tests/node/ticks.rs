@@ -3,7 +3,10 @@
 use crate::bench::{Bench, PERIOD, formation};
 use trench_core::{Event, RosTime};
 use trench_msgs::geometry_msgs::TwistStamped;
-use trench_msgs::msg::{Goal, Goals, LeaderState, RobotState, RunState, TeamState};
+use trench_msgs::Encode;
+use trench_msgs::msg::{
+    ApparentObstacleArray, Goal, Goals, LeaderState, Point2, RobotState, RunState, TeamState,
+};
 use trench_msgs::std_msgs::Bool;
 
 #[test]
@@ -108,6 +111,34 @@ fn team_states_of_another_time_do_not_count() {
     assert!(bench.tick(&bench.team(tracked, 0.03)).twist.linear.x > 0.0);
 }
 
+#[test]
+fn obstacles_and_goals_of_another_time_do_not_count() {
+    for (topic, shift, said) in [
+        ("/apparent_obstacles", 5.0, "5.000 s from the future"),
+        ("/apparent_obstacles", -3.0, "3.000 s older than one heard before"),
+        ("/goals", 5.0, "5.000 s from the future"),
+        ("/goals", -3.0, "3.000 s older than one heard before"),
+    ] {
+        let mut bench = Bench::new();
+        bench.running();
+        let before = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        bench.seconds += PERIOD;
+        let stamp = RosTime(0).plus_seconds(100.0 + if shift > 0.0 { PERIOD + shift } else { shift }).into();
+        // In the way, and behind.
+        let mut hulls = ApparentObstacleArray { obstacles: vec![Default::default()], ..ApparentObstacleArray::default() };
+        hulls.obstacles[0].hull = vec![Point2 { x: 1.15, y: 0.9 }];
+        hulls.obstacles[0].radius = 0.02;
+        let goal = Goal { robot: "robot1".to_owned(), position: Point2 { x: 0.1, y: 0.9 }, ..Goal::default() };
+        let mut goals = Goals { goals: vec![goal], ..Goals::default() };
+        hulls.header.stamp = stamp;
+        goals.header.stamp = hulls.header.stamp.clone();
+        bench.send(topic, if topic == "/goals" { &goals as &dyn Encode } else { &hulls });
+        assert!(bench.says().contains(&format!("a message on {topic} was dropped: it is {said}")), "{}", bench.says());
+        let after = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
+        assert!(after >= before, "{topic} {shift}: {before}, then {after}");
+    }
+}
+
 /// As after a bag that begins anew, or a simulated clock that was reset.
 #[test]
 fn a_clock_that_is_set_back_makes_nothing_late() {
@@ -186,11 +217,12 @@ fn goals_with_numbers_that_are_none_leave_the_last_ones_in_force() {
         let mut goals = Goals { goals: vec![goal], ..Goals::default() };
         goals.header.stamp = bench.times().ros.into();
         let Goals { frame, goals: each, .. } = &mut goals;
+        let goal = &mut each[0];
         *[
-            &mut each[0].position.x,
-            &mut each[0].velocity.y,
-            &mut each[0].acceleration.x,
-            &mut each[0].remaining,
+            &mut goal.position.x,
+            &mut goal.velocity.y,
+            &mut goal.acceleration.x,
+            &mut goal.remaining,
             &mut frame.theta,
             &mut frame.position.y,
         ][field] = bad;

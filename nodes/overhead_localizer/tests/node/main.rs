@@ -4,6 +4,7 @@
 
 mod calibration;
 mod encodings;
+mod noise;
 mod restart;
 mod viewers;
 
