@@ -30,6 +30,31 @@ fn live_square_tuned() {
     tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "square.launch.yaml");
 }
 
+/// `eval "$(scripts/ros2-launch --env)"` first.
+#[test]
+#[ignore = "wants the real ros2 launch, from GitHub: scripts/ros2-launch"]
+fn live_triangle_and_square_under_the_real_ros2_launch() {
+    for file in ["triangle.launch.yaml", "square.launch.yaml"] {
+        let launch = Launch::new(domain(0));
+        let ours = launch.recording(file, &["duration:=30.0"]);
+        let programs = Path::new(env!("CARGO_BIN_EXE_trench")).parent().unwrap();
+        let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+        let mut command = Command::new("ros2");
+        command.arg("launch").arg(launch.root.join("launch").join(file));
+        command.args(ours.get_args().filter(|argument| argument.to_string_lossy().contains(":=")));
+        command.envs(ours.get_envs().filter_map(|(name, value)| Some((name, value?)))).env("PATH", path);
+        command.env("ROS_LOG_DIR", launch.folder.path().join("log"));
+        let (status, text) = launch.finish(command);
+        assert!(status.success() && text.contains("the formation stands"), "{file}: {status}\n{text}");
+        let ended = text.matches("process has finished cleanly").count();
+        assert!(ended >= 8 && !text.contains("process has died"), "{file}: {ended} processes ended cleanly\n{text}");
+        let summary = launch.judge(&[]);
+        tuned::keeps_its_bounds(&summary);
+        let worst = summary.robots.iter().filter_map(|robot| robot.final_distance).fold(0.0, f64::max);
+        println!("worst final distance {worst:.4} m under ros2 launch ({file})");
+    }
+}
+
 /// Rendered, seen, answered and sent in half of the time that other tests have.
 #[test]
 fn live_square_at_sixty_frames_a_second() {

@@ -1,6 +1,7 @@
-//! The launch files of chapters 5 to 9 as processes in real time, judged as tests/launches.rs judges them in lock-step.
+//! The launch files of chapters 5 to 9 as processes in real time, judged as tests/launches.rs judges them in lock-step, and the pursuit
+//! among obstacles that lasers find.
 //!
-//! One file a day; `TRENCH_LIVE_LAUNCH` names another (scripts/acceptance takes all).
+//! One a day; `TRENCH_LIVE_LAUNCH` names another (scripts/acceptance takes all).
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod live_support;
@@ -12,14 +13,14 @@ use std::time::SystemTime;
 use support::conformity::Conformity;
 use trench_bag::run::Run;
 
-const FILES: [&str; 4] = ["chain", "nearest_chain", "corridor", "sinusoid"];
+const FILES: [&str; 5] = ["chain", "nearest_chain", "corridor", "sinusoid", "lasers"];
 
 /// m, from the segment at the end: `tolerance` of the launch files, and no more than in lock-step.
 const STANDS: f64 = 0.05;
 
 fn file() -> String {
     let today = || SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_secs() / 86_400;
-    std::env::var("TRENCH_LIVE_LAUNCH").unwrap_or_else(|_| FILES[(today() % 4) as usize].to_owned())
+    std::env::var("TRENCH_LIVE_LAUNCH").unwrap_or_else(|_| FILES[(today() % FILES.len() as u64) as usize].to_owned())
 }
 
 /// What is particular to a file.
@@ -41,6 +42,8 @@ fn is_as_in_lockstep(file: &str, run: &Run) {
             }
         }
         "sinusoid" => assert_eq!(robots.len(), 15),
+        // Behind the target, at the end of its way through the field.
+        "lasers" => robots.for_each(|robot| assert!(end(robot).x < 2.0 && end(robot).y > 1.6, "{robot} is lost")),
         other => assert!(FILES.contains(&other), "{other} is none of {FILES:?}"),
     }
 }
@@ -49,7 +52,9 @@ fn is_as_in_lockstep(file: &str, run: &Run) {
 fn live_a_launch_file_of_the_chapters_stands() {
     let file = file();
     let launch = Launch::new(domain(0));
-    let (status, text) = launch.finish(launch.recording(&format!("{file}.launch.yaml"), &[]));
+    let (launched, arguments): (_, &[&str]) =
+        if file == "lasers" { ("pursuit", &support::BY_LASERS) } else { (file.as_str(), &[]) };
+    let (status, text) = launch.finish(launch.recording(&format!("{launched}.launch.yaml"), arguments));
     assert!(status.success(), "{file}: {status}\n{text}");
     let bag = launch.recorded();
     let run = Run::from_bag(&bag).unwrap();

@@ -7,7 +7,7 @@
 mod support;
 
 use std::time::SystemTime;
-use support::{Finished, drive, named_seeds, pursued, root, starts};
+use support::{BY_LASERS, Finished, drive, named_seeds, pursued, root, starts};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
 
@@ -53,6 +53,20 @@ fn pursue(seed: u64) {
     stands_without_contact(&finished, &what);
     println!("{}", pursued::judge(&finished.conformity.finish(), &what));
     energy_is_accounted_for(&finished, &what);
+}
+
+/// Nobody tells of the field: what robots do not see with their lasers, or have not seen in the last seconds, is not there.
+#[test]
+fn the_pursuit_finds_its_obstacles_by_lasers_alone() {
+    for seed in ["1", "2"] {
+        let arguments: Vec<_> =
+            BY_LASERS.iter().map(|text| text.split_once(":=").unwrap()).chain([("seed", seed)]).collect();
+        let finished = drive("pursuit.launch.yaml", &arguments);
+        let what = format!("by lasers, seed {seed}");
+        stands_without_contact(&finished, &what);
+        let worst = finished.conformity.finish().at_the_end();
+        assert!(worst <= 0.05, "{what}: {worst} m from the segment at the end");
+    }
 }
 
 /// Nobody but the laws and their inputs moves a robot here: no monitor finds V beyond its bound. What it finds otherwise is so: robots

@@ -25,7 +25,7 @@ CASES = {
     "column": [*USUAL, ["target_robot:=robot5", "formation:=behind", "everybody:=[robot1, robot2, robot3, robot4, robot5]"]],
     "controller": [["robot:=robot1", TEAM], ["robot:=robot2", TEAM, "world:=large", "profile:=thesis"]],
     "controllers": [[TEAM], ["robots:=[robot1]", "profile:=chain"]],
-    "pursuit": [*USUAL, ["order:=nearest"], [NO_OBSTACLES]],
+    "pursuit": [*USUAL, ["order:=nearest"], [NO_OBSTACLES], ["lasers:=[robot1, robot5]", "publish_obstacles:=false"]],
     "nearest_chain": [*USUAL, [NO_OBSTACLES]],
     "robot_host": [["robot:=robot1", TEAM], ["robot:=robot1", TEAM, "read_best_effort:=[/team_state, /goals]"]],
     "router": [[]],

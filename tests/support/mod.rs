@@ -56,6 +56,10 @@ pub(crate) fn starts(seed: u64) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
+/// Arguments of the pursuit whose robots are told of no obstacle, and see them.
+pub(crate) const BY_LASERS: [&str; 2] =
+    ["lasers:=[robot1, robot2, robot3, robot4, robot5, robot6, robot7, robot8]", "publish_obstacles:=false"];
+
 /// A finished lock-step run.
 pub(crate) struct Finished {
     pub(crate) run: Run,

@@ -52,6 +52,7 @@ impl Room {
 
 /// The least distance between two places, m, and their queues.
 fn closest<'a>(places: &[Place<'a>]) -> Option<(f64, [&'a str; 2])> {
-    let pairs = places.iter().enumerate().flat_map(|(index, one)| places[..index].iter().map(move |other| (other, one)));
+    let pairs =
+        places.iter().enumerate().flat_map(|(index, one)| places[..index].iter().map(move |other| (other, one)));
     pairs.map(|(one, other)| ((one.1 - other.1).norm(), [one.0, other.0])).min_by(|a, b| a.0.total_cmp(&b.0))
 }

@@ -55,9 +55,13 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string("target.robot", "", "the robot that is the target; empty: whatever /target says").read_only(),
         P::double_list("field", &[], "m, x and y of the field's low corner, then of its high one; empty: anywhere")
             .read_only(),
-        P::double("body.radius", 0.08, "m, of the robots: places that are nearer to each other than two of them are refused")
-            .range(0.0, 10.0)
-            .read_only(),
+        P::double(
+            "body.radius",
+            0.08,
+            "m, of the robots: places that are nearer to each other than two of them are refused",
+        )
+        .range(0.0, 10.0)
+        .read_only(),
     ]
 }
 

@@ -112,7 +112,9 @@ fn refused_changes_leave_every_law_as_it_was() {
             for tick in 0..6 {
                 leader(&mut bench);
                 bench.drive(1);
-                if tick == 2 && let Some(change) = change {
+                if tick == 2
+                    && let Some(change) = change
+                {
                     // What is of the wrong kind or out of range is refused before the node hears of it.
                     let set = parameters(&[("team", "[robot1, robot2]"), ("law", law), change])
                         .and_then(|set| bench.core.set_parameters(&set).map_err(|error| error.to_string()));

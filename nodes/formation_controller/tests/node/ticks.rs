@@ -2,11 +2,9 @@
 
 use crate::bench::{Bench, PERIOD, formation};
 use trench_core::{Event, RosTime};
-use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::Encode;
-use trench_msgs::msg::{
-    ApparentObstacleArray, Goal, Goals, LeaderState, Point2, RobotState, RunState, TeamState,
-};
+use trench_msgs::geometry_msgs::TwistStamped;
+use trench_msgs::msg::{ApparentObstacleArray, Goal, Goals, LeaderState, Point2, RobotState, RunState, TeamState};
 use trench_msgs::std_msgs::Bool;
 
 #[test]
@@ -125,7 +123,8 @@ fn obstacles_and_goals_of_another_time_do_not_count() {
         bench.seconds += PERIOD;
         let stamp = RosTime(0).plus_seconds(100.0 + if shift > 0.0 { PERIOD + shift } else { shift }).into();
         // In the way, and behind.
-        let mut hulls = ApparentObstacleArray { obstacles: vec![Default::default()], ..ApparentObstacleArray::default() };
+        let mut hulls =
+            ApparentObstacleArray { obstacles: vec![Default::default()], ..ApparentObstacleArray::default() };
         hulls.obstacles[0].hull = vec![Point2 { x: 1.15, y: 0.9 }];
         hulls.obstacles[0].radius = 0.02;
         let goal = Goal { robot: "robot1".to_owned(), position: Point2 { x: 0.1, y: 0.9 }, ..Goal::default() };

@@ -52,7 +52,8 @@ fn nobody_arms_robots_that_are_not_seen() {
 
 #[test]
 fn a_team_state_with_numbers_that_are_none_is_said_and_dropped() {
-    for (bad, field) in [f64::NAN, f64::NEG_INFINITY].into_iter().flat_map(|bad| (0..5).map(move |field| (bad, field))) {
+    for (bad, field) in [f64::NAN, f64::NEG_INFINITY].into_iter().flat_map(|bad| (0..5).map(move |field| (bad, field)))
+    {
         let mut bench = Bench::running();
         bench.see(RobotState::STATUS_TRACKED);
         let before: Goals = bench.last("/goals").unwrap();
