@@ -176,6 +176,25 @@ impl Conformed {
         self.robots.values().map(|way| Self::conforming(time, bound, way)).fold(0.0, f64::max)
     }
 
+    /// How often something had been in a robot's way and then nothing was for `patience` (s) and more, and how often the robot was within
+    /// `bound` of its segment in that time.
+    pub(crate) fn recoveries(&self, bound: f64, patience: f64) -> [usize; 2] {
+        let mut counted = [0, 0];
+        for (robot, times) in &self.hindrance.of {
+            let Some(way) = self.robots.get(robot) else { continue };
+            let end = way.last().map_or(0.0, |sample| sample.time);
+            let free =
+                times.iter().zip(times.iter().skip(1).chain([&end])).filter(|(since, next)| *next - *since >= patience);
+            for (since, _) in free {
+                let from = way.partition_point(|sample| sample.time <= *since);
+                let mut soon = way[from..].iter().take_while(|sample| sample.time <= since + patience);
+                counted[0] += 1;
+                counted[1] += usize::from(soon.any(|sample| sample.distance <= bound));
+            }
+        }
+        counted
+    }
+
     /// The median over the robots of the same, s.
     pub(crate) fn median_time(&self, time: [f64; 2], bound: f64) -> f64 {
         let mut times: Vec<f64> = self.robots.values().map(|way| Self::conforming(time, bound, way)).collect();

@@ -22,6 +22,8 @@ pub(crate) struct Hindrance {
     pub(crate) until: f64,
     /// Real obstacles by number, and the robots that they hindered, alone or combined with others.
     pub(crate) by: BTreeMap<u32, BTreeSet<String>>,
+    /// When each robot was, s since t0, in order.
+    pub(crate) of: BTreeMap<String, Vec<f64>>,
 }
 
 impl Field {
@@ -36,13 +38,18 @@ impl Field {
     pub(crate) fn look(&self, into: &mut Hindrance, (robot, stamp, time): (&str, i64, f64), way: [Vector2<f64>; 2]) {
         let Some((_, obstacles)) = self.0.range(..=stamp).next_back() else { return };
         let way = Shape::new(&way, 0.0).unwrap();
+        let mut hindered = false;
         for obstacle in obstacles {
             if obstacle.shape.outline().gap(&way.outline()) < REACH {
                 into.until = into.until.max(time);
+                hindered = true;
                 for member in &obstacle.members {
                     into.by.entry(*member).or_default().insert(robot.to_owned());
                 }
             }
+        }
+        if hindered {
+            into.of.entry(robot.to_owned()).or_default().push(time);
         }
     }
 }

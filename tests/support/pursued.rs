@@ -20,7 +20,8 @@ const NEUTRAL: [f64; 2] = [0.26 - FORMED, 0.34 + FORMED];
 
 /// Holds a pursuit against its bounds and gives what it shows in a line. Two things disturb: the start, from anywhere, and the field,
 /// as long as an obstacle is within reach of some robot's way to its segment. In the field the segments sweep over obstacles
-/// without a pause.
+/// without a pause: how often a single robot was back on its segment in time when nothing was in its own way any more (those of
+/// others still detain it) is told, not demanded.
 pub(crate) fn judge(conformed: &Conformed, what: &str) -> String {
     let field = conformed.hindrance.until;
     let disturbances = [("start", [0.0, DEPARTURE]), ("field", [field, f64::INFINITY])];
@@ -33,11 +34,12 @@ pub(crate) fn judge(conformed: &Conformed, what: &str) -> String {
     for after in &formed {
         assert!(after.1 <= PATIENCE, "{what}: formed {}", told(after));
     }
+    let [free, back] = conformed.recoveries(FORMED, PATIENCE);
     assert!(conformed.at_the_end() <= FORMED, "{what}: {} m: lost or trapped", conformed.at_the_end());
     assert_eq!(spacings.len(), 6, "{what}: two queues of four");
     assert!(least >= NEUTRAL[0] && most <= NEUTRAL[1], "{what}: {spacings:?} m apart");
     format!(
-        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {least:.3} to {most:.3} m apart: {what}",
+        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {back} of {free} times a robot was back in time after its own last obstacle; {least:.3} to {most:.3} m apart: {what}",
         conformed.at_the_end(),
         formed.each_ref().map(told).join(", "),
     )
