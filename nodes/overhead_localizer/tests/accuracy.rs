@@ -1,7 +1,12 @@
 //! The whole way from pixels to poses, against the truth behind rendered frames.
+//!
+//! `TRENCH_ENCOUNTERS` sets how many random encounters are rendered (1,000 in scripts/acceptance).
 
 #![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
 
+mod encounters;
+
+use encounters::{Random, encounter};
 use overhead_localizer::track::{MapDisc, Robot, Settings, Status, Tracker, wrap};
 use overhead_localizer::vision::{ColourLimits, Detector, Expectation, Frame};
 use trench_optics::{Camera, CameraInfo, Mount, Pad, Pose2};
@@ -105,4 +110,33 @@ fn robots_that_pass_at_two_centimetres_keep_their_names_and_accuracy() {
             }
         }
     }
+}
+
+/// Two centimetres between the bodies, whatever the headings and speeds.
+#[test]
+fn no_swap_in_random_encounters_from_rendered_frames() {
+    let count = std::env::var("TRENCH_ENCOUNTERS").ok().map_or(60, |text| text.parse().unwrap());
+    let mut eye = Eye::new();
+    let (mut worst, mut elsewhere) = (0.0_f64, 0);
+    for seed in 0..count {
+        let paths = encounter(&mut Random(seed), 0.02);
+        let mut tracker = team(&paths(-0.6));
+        for frame in 0..30_u32 {
+            let time = -0.6 + 0.04 * f64::from(frame);
+            let [first, second] = [0, 1].map(|robot| -> Vec<Pose2> {
+                (-2..=2).map(|instant| paths(time + 0.0025 * f64::from(instant))[robot]).collect()
+            });
+            tracker
+                .step(if frame == 0 { 0.0 } else { 0.04 }, &eye.see(&[first, second], 100 * seed + u64::from(frame)));
+            for (track, truth) in tracker.tracks().iter().zip(paths(time)) {
+                assert_eq!(track.status, Status::Tracked, "encounter {seed}, frame {frame}");
+                let seen = track.filter.as_ref().unwrap().state().pose;
+                let off = (seen.x - truth.x).hypot(seen.y - truth.y);
+                worst = worst.max(off);
+                elsewhere += usize::from(off > 0.03);
+            }
+        }
+    }
+    println!("swaps in {count} rendered encounters: {elsewhere}; worst {:.3} mm off", 1e3 * worst);
+    assert!(elsewhere == 0 && worst < 1e-3, "{elsewhere} frames with a robot elsewhere; {worst} m");
 }
