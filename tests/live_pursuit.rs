@@ -102,9 +102,10 @@ fn live_column_is_that_of_lockstep() {
     let apart = live.apart(&lockstep, f64::INFINITY);
     let [ours, theirs] =
         [live.median_time([0.0, f64::INFINITY], FORMED), lockstep.median_time([0.0, f64::INFINITY], FORMED)];
+    let turned = live.turned(&lockstep);
     println!(
-        "worst final poses {apart:.4} m apart; median time to conform {ours:.1} s live, {theirs:.1} s in lock-step"
+        "worst final poses {apart:.4} m and {turned:.4} rad apart; median time to conform {ours:.1} s live, {theirs:.1} s in lock-step"
     );
-    assert!(apart <= 0.02, "final poses differ by {apart} m");
+    assert!(apart <= 0.02 && turned <= 0.1, "final poses differ by {apart} m, {turned} rad");
     assert!((ours / theirs - 1.0).abs() <= 0.15, "{ours} s live, {theirs} s in lock-step");
 }

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import wheels
 from bag import NEAR, Run
-from motion import AGE, FRAME, allowed, burst, moves, rest, stale, standstill, stretch
+from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -125,6 +125,8 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
             verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
     if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
         verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
+    if "drives" in fault and (stood := idle(bag, began, ended)) > fault["drives"]:
+        verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
     if "kill" in fault:
         verdict.rested = rest(bag, began, min(began + FORMATION, following))
         if verdict.rested > ended - began + RESUMED:

@@ -1,6 +1,7 @@
 """Whether robots move only on what is new enough, and when they stand: from ground truth."""
 
 import math
+from dataclasses import dataclass
 
 from bag import STANDS, TURNS, Run, Series
 
@@ -44,31 +45,46 @@ def standstill(bag: Run, robots: list[str], began: float, ended: float) -> float
     return latest
 
 
+@dataclass
+class Span:
+    """For how long a robot moved, or stood, without a break: first and last sample, and the first one after them."""
+
+    moving: bool
+    first: float
+    last: float
+    following: float | None = None
+
+
+def spans(series: Series, began: float, until: float) -> list[Span]:
+    """All of a robot's between two times."""
+    found: list[Span] = []
+    for at, state in series.between(began, until):
+        moving = moves(state)
+        if found and found[-1].moving == moving:
+            found[-1].last = at
+            continue
+        if found:
+            found[-1].following = at
+        found.append(Span(moving, at, at))
+    return found
+
+
 def stretch(bag: Run, began: float, until: float) -> float:
     """How long a robot moved at most without standing still."""
-    longest = 0.0
-    for series in bag.truth.values():
-        since = None
-        for at, state in series.between(began, until):
-            if not moves(state):
-                since = None
-            else:
-                since = at if since is None else since
-                longest = max(longest, at - since)
-    return longest
+    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
+    return max((span.last - span.first for span in of_all if span.moving), default=0.0)
 
 
 def rest(bag: Run, began: float, until: float) -> float:
     """How long a robot stood at most that then moved on: at the end of its way it stands for good."""
-    longest = 0.0
-    for series in bag.truth.values():
-        since = None
-        for at, state in series.between(began, until):
-            if not moves(state):
-                since = at if since is None else since
-            elif since is not None:
-                longest, since = max(longest, at - since), None
-    return longest
+    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
+    return max((span.following - span.first for span in of_all if not span.moving and span.following), default=0.0)
+
+
+def idle(bag: Run, began: float, until: float) -> float:
+    """How long a robot stood at most, whether it moved on or not."""
+    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
+    return max(((span.following or until) - span.first for span in of_all if not span.moving), default=0.0)
 
 
 def stale(bag: Run, heard: dict[str, Series], later: float = FRAME) -> list[str]:

@@ -22,6 +22,8 @@ the worst of all seeds that were run:
   died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned, which moved before, stand from 0.25 s of old information (0.5 s without goals or
   obstacles), a frame and the time to brake, until the fault is over;
+- where nothing keeps robots from driving (lost packets that others make good for, voices that are refused), none stands for longer than the
+  matrix says (`drives`);
 - **rest**: after the death of a process, how long a robot stood at most: no longer than until the victim lives again, and a second;
 - **driven**: all robots move again, or are where their resting goal points are, within 2 s of its end (the victim lives again, the injection is off);
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the

@@ -19,6 +19,8 @@ type Place = [f64; 3];
 pub(crate) struct Conformity {
     /// By robot and exposure.
     truth: BTreeMap<String, BTreeMap<i64, [f64; 2]>>,
+    /// Each robot's last heading, rad.
+    headings: BTreeMap<String, f64>,
     frames: BTreeMap<i64, Place>,
     assignments: BTreeMap<i64, Assignment>,
     /// Of each formation, from when on.
@@ -49,6 +51,8 @@ pub(crate) struct Conformed {
     pub(crate) places: BTreeMap<String, [f64; 2]>,
     /// What each robot's law drives, at the end, m.
     pub(crate) points: BTreeMap<String, [f64; 2]>,
+    /// Where each robot looks at the end, rad.
+    pub(crate) headings: BTreeMap<String, f64>,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
     pub(crate) hindrance: Hindrance,
@@ -87,7 +91,9 @@ impl Conformity {
                 let robot = topic.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
                 if let Some(robot) = robot {
                     let odometry = Odometry::decode(cdr).unwrap();
-                    let position = [odometry.pose.pose.position.x, odometry.pose.pose.position.y];
+                    let pose = &odometry.pose.pose;
+                    let position = [pose.position.x, pose.position.y];
+                    self.headings.insert(robot.to_owned(), 2.0 * libm::atan2(pose.orientation.z, pose.orientation.w));
                     let track = self.truth.entry(robot.to_owned()).or_default();
                     track.insert(nanoseconds(&odometry.header.stamp), position);
                 }
@@ -97,7 +103,7 @@ impl Conformity {
 
     pub(crate) fn finish(&self) -> Conformed {
         let t0 = self.t0.unwrap();
-        let mut conformed = Conformed { points: self.points.clone(), ..Conformed::default() };
+        let mut conformed = Conformed { points: self.points.clone(), headings: self.headings.clone(), ..Conformed::default() };
         for (robot, track) in &self.truth {
             let hindrance = &mut conformed.hindrance;
             let sample = |(stamp, position): (&i64, &[f64; 2])| {
@@ -159,6 +165,15 @@ impl Conformed {
             libm::hypot(x - other_x, y - other_y)
         };
         self.points.iter().map(apart).fold(0.0, f64::max)
+    }
+
+    /// The largest angle between where a robot looks in both runs, at the end, rad.
+    pub(crate) fn turned(&self, other: &Self) -> f64 {
+        let turned = |(robot, heading): (&String, &f64)| {
+            let (sine, cosine) = libm::sincos(heading - other.headings[robot]);
+            libm::atan2(sine, cosine).abs()
+        };
+        self.headings.iter().map(turned).fold(0.0, f64::max)
     }
 
     /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:
