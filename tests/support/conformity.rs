@@ -103,7 +103,8 @@ impl Conformity {
 
     pub(crate) fn finish(&self) -> Conformed {
         let t0 = self.t0.unwrap();
-        let mut conformed = Conformed { points: self.points.clone(), headings: self.headings.clone(), ..Conformed::default() };
+        let mut conformed =
+            Conformed { points: self.points.clone(), headings: self.headings.clone(), ..Conformed::default() };
         for (robot, track) in &self.truth {
             let hindrance = &mut conformed.hindrance;
             let sample = |(stamp, position): (&i64, &[f64; 2])| {

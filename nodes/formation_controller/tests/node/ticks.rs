@@ -130,7 +130,7 @@ fn obstacles_and_goals_of_another_time_do_not_count() {
         let goal = Goal { robot: "robot1".to_owned(), position: Point2 { x: 0.1, y: 0.9 }, ..Goal::default() };
         let mut goals = Goals { goals: vec![goal], ..Goals::default() };
         hulls.header.stamp = stamp;
-        goals.header.stamp = hulls.header.stamp.clone();
+        goals.header.stamp = hulls.header.stamp;
         bench.send(topic, if topic == "/goals" { &goals as &dyn Encode } else { &hulls });
         assert!(bench.says().contains(&format!("a message on {topic} was dropped: it is {said}")), "{}", bench.says());
         let after = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
@@ -212,7 +212,7 @@ fn goals_with_numbers_that_are_none_leave_the_last_ones_in_force() {
         bench.running();
         let first = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0)).twist.linear.x;
         bench.seconds += PERIOD;
-        let goal = Goal { robot: "robot1".to_owned(), position: bench.goal.clone(), remaining: 1e9, ..Goal::default() };
+        let goal = Goal { robot: "robot1".to_owned(), position: bench.goal, remaining: 1e9, ..Goal::default() };
         let mut goals = Goals { goals: vec![goal], ..Goals::default() };
         goals.header.stamp = bench.times().ros.into();
         let Goals { frame, goals: each, .. } = &mut goals;
