@@ -14,20 +14,20 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Launches an experiment with the default profile and holds its bag against the bounds of that.
-fn tuned_profile_keeps_its_bounds(launch: &Launch, file: &str) {
-    let (status, text) = launch.finish(launch.recording(file, &["duration:=30.0"]));
+fn tuned_profile_keeps_its_bounds(launch: &Launch, file: &str, more: &[&str]) {
+    let (status, text) = launch.finish(launch.recording(file, &[&["duration:=30.0"], more].concat()));
     assert!(status.success(), "{status}\n{text}");
     tuned::keeps_its_bounds(&launch.judge(&[]));
 }
 
 #[test]
 fn live_triangle_tuned() {
-    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "triangle.launch.yaml");
+    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "triangle.launch.yaml", &[]);
 }
 
 #[test]
 fn live_square_tuned() {
-    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "square.launch.yaml");
+    tuned_profile_keeps_its_bounds(&Launch::new(domain(0)), "square.launch.yaml", &[]);
 }
 
 /// `eval "$(scripts/ros2-launch --env)"` first.
@@ -59,9 +59,7 @@ fn live_triangle_and_square_under_the_real_ros2_launch() {
 #[test]
 fn live_square_at_sixty_frames_a_second() {
     let launch = Launch::new(domain(0));
-    let (status, text) = launch.finish(launch.recording("square.launch.yaml", &["bed:=fast", "duration:=30.0"]));
-    assert!(status.success(), "{status}\n{text}");
-    tuned::keeps_its_bounds(&launch.judge(&[]));
+    tuned_profile_keeps_its_bounds(&launch, "square.launch.yaml", &["bed:=fast"]);
     let recorded = launch.recorded();
     let topic = recorded.topic("/team_state").unwrap();
     let ticks = recorded.messages().filter(|message| message.as_ref().unwrap().topic == topic).count();
@@ -99,7 +97,7 @@ fn live_square_over_zenoh() {
         ("RMW_IMPLEMENTATION", "rmw_zenoh_cpp".to_owned()),
         ("ZENOH_CONFIG_OVERRIDE", format!("connect/endpoints=[\"{}\"]", router.1)),
     ];
-    tuned_profile_keeps_its_bounds(&launch, "square.launch.yaml");
+    tuned_profile_keeps_its_bounds(&launch, "square.launch.yaml", &[]);
 }
 
 #[test]

@@ -52,11 +52,15 @@ fn is_as_in_lockstep(file: &str, run: &Run) {
 fn live_a_launch_file_of_the_chapters_stands() {
     let file = file();
     let launch = Launch::new(domain(0));
-    let field = support::standing_field(launch.folder.path());
-    let by_lasers = [support::BY_LASERS[0], support::BY_LASERS[1], &field];
-    let (launched, arguments): (_, &[&str]) =
-        if file == "lasers" { ("pursuit", &by_lasers) } else { (file.as_str(), &[]) };
-    let (status, text) = launch.finish(launch.recording(&format!("{launched}.launch.yaml"), arguments));
+    let (launched, arguments) = match file.as_str() {
+        "lasers" => (
+            "pursuit",
+            support::by_lasers(launch.folder.path()).map(|(name, value)| format!("{name}:={value}")).to_vec(),
+        ),
+        other => (other, Vec::new()),
+    };
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let (status, text) = launch.finish(launch.recording(&format!("{launched}.launch.yaml"), &arguments));
     assert!(status.success(), "{file}: {status}\n{text}");
     let bag = launch.recorded();
     let run = Run::from_bag(&bag).unwrap();

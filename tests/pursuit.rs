@@ -7,7 +7,7 @@
 mod support;
 
 use std::time::SystemTime;
-use support::{BY_LASERS, Finished, drive, named_seeds, pursued, root, starts};
+use support::{Finished, by_lasers, drive, named_seeds, pursued, root, starts};
 use trench_bag::run::{SummaryOptions, summary};
 use trench_harness::Ending;
 
@@ -60,9 +60,9 @@ fn pursue(seed: u64) {
 #[test]
 fn the_pursuit_finds_its_obstacles_by_lasers_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let field = support::standing_field(folder.path());
+    let by_lasers = by_lasers(folder.path());
+    let given = by_lasers.each_ref().map(|(name, value)| (*name, value.as_str()));
     for seed in ["1", "2", "3"] {
-        let given = [BY_LASERS[0], BY_LASERS[1], &field].map(|text| text.split_once(":=").unwrap());
         let finished = drive("pursuit.launch.yaml", &[&given[..], &[("seed", seed)]].concat());
         let what = format!("by lasers, seed {seed}");
         stands_without_contact(&finished, &what);

@@ -55,36 +55,36 @@ class Span:
     following: float | None = None
 
 
-def spans(series: Series, began: float, until: float) -> list[Span]:
-    """All of a robot's between two times."""
+def spans(bag: Run, began: float, until: float) -> list[Span]:
+    """Those of every robot between two times."""
     found: list[Span] = []
-    for at, state in series.between(began, until):
-        moving = moves(state)
-        if found and found[-1].moving == moving:
-            found[-1].last = at
-            continue
-        if found:
-            found[-1].following = at
-        found.append(Span(moving, at, at))
+    for series in bag.truth.values():
+        span = None
+        for at, state in series.between(began, until):
+            moving = moves(state)
+            if span and span.moving == moving:
+                span.last = at
+                continue
+            if span:
+                span.following = at
+            span = Span(moving, at, at)
+            found.append(span)
     return found
 
 
 def stretch(bag: Run, began: float, until: float) -> float:
     """How long a robot moved at most without standing still."""
-    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
-    return max((span.last - span.first for span in of_all if span.moving), default=0.0)
+    return max((span.last - span.first for span in spans(bag, began, until) if span.moving), default=0.0)
 
 
 def rest(bag: Run, began: float, until: float) -> float:
     """How long a robot stood at most that then moved on: at the end of its way it stands for good."""
-    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
-    return max((span.following - span.first for span in of_all if not span.moving and span.following), default=0.0)
+    return max((span.following - span.first for span in spans(bag, began, until) if not span.moving and span.following), default=0.0)
 
 
 def idle(bag: Run, began: float, until: float) -> float:
     """How long a robot stood at most, whether it moved on or not."""
-    of_all = [span for series in bag.truth.values() for span in spans(series, began, until)]
-    return max(((span.following or until) - span.first for span in of_all if not span.moving), default=0.0)
+    return max(((span.following or until) - span.first for span in spans(bag, began, until) if not span.moving), default=0.0)
 
 
 def stale(bag: Run, heard: dict[str, Series], later: float = FRAME) -> list[str]:

@@ -56,32 +56,19 @@ pub(crate) fn starts(seed: u64) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// Arguments of the pursuit whose robots are told of no obstacle, and see them.
-pub(crate) const BY_LASERS: [&str; 2] =
-    ["lasers:=[robot1, robot2, robot3, robot4, robot5, robot6, robot7, robot8]", "publish_obstacles:=false"];
-
-/// The pursuit's field without what moves in it, in a file in `folder`, as an argument of its launch file.
-pub(crate) fn standing_field(folder: &Path) -> String {
+/// Arguments of the pursuit whose robots are told of no obstacle, and see them: of those of its field that stand, from a file in `folder`.
+pub(crate) fn by_lasers(folder: &Path) -> [(&'static str, String); 3] {
     let whole = std::fs::read_to_string(root().join("config/obstacles/pursuit.yaml")).unwrap();
-    let (mut kept, mut moving) = (String::new(), 0);
-    // An obstacle begins at a dash and goes on in lines that are further in.
-    for piece in whole.split_inclusive('\n').fold(Vec::<String>::new(), |mut pieces, line| {
-        match pieces.last_mut().filter(|_| line.starts_with(' ')) {
-            Some(last) => last.push_str(line),
-            None => pieces.push(line.to_owned()),
-        }
-        pieces
-    }) {
-        if piece.contains("path:") {
-            moving += 1;
-        } else {
-            kept.push_str(&piece);
-        }
-    }
-    assert_eq!(moving, 2, "{whole}");
+    // A list item ends where the next one begins.
+    let (moving, standing): (Vec<&str>, Vec<&str>) = whole.split("\n- ").partition(|item| item.contains("path:"));
+    assert_eq!(moving.len(), 2, "{whole}");
     let file = folder.join("standing.yaml");
-    std::fs::write(&file, kept).unwrap();
-    format!("obstacles:={}", file.display())
+    std::fs::write(&file, standing.join("\n- ")).unwrap();
+    [
+        ("lasers", "[robot1, robot2, robot3, robot4, robot5, robot6, robot7, robot8]".to_owned()),
+        ("publish_obstacles", "false".to_owned()),
+        ("obstacles", file.display().to_string()),
+    ]
 }
 
 /// A finished lock-step run.

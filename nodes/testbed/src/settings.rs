@@ -194,19 +194,14 @@ fn laser(parameters: &Parameters) -> Result<Laser, ConfigError> {
 
 /// Indices of the robots with lasers.
 fn lasers(parameters: &Parameters) -> Result<Vec<usize>, ConfigError> {
-    let (robots, names) = (parameters.str_list("robots")?, parameters.str_list("laser.robots")?);
-    let mut indices = Vec::with_capacity(names.len());
-    for name in names {
-        let Some(index) = robots.iter().position(|robot| robot == name) else {
+    let (robots, names) = (parameters.str_list("robots")?, parameters.names("laser.robots")?);
+    let index = |name: &String| {
+        robots.iter().position(|robot| robot == name).ok_or_else(|| {
             let problem = format!("{name} is no robot");
-            return Err(parameters.error("laser.robots", problem, format!("write some of {}", robots.join(", "))));
-        };
-        if indices.contains(&index) {
-            return Err(parameters.error("laser.robots", format!("{name} is there twice"), "name each robot once"));
-        }
-        indices.push(index);
-    }
-    Ok(indices)
+            parameters.error("laser.robots", problem, format!("write some of {}", robots.join(", ")))
+        })
+    };
+    names.iter().map(index).collect()
 }
 
 /// The robots' ids, each once, as many as names.
