@@ -60,13 +60,29 @@ fn interop_rclpy_sees_decodes_and_sets_the_launched_square() {
     assert_eq!(said.matches("process has finished cleanly").count(), 10, "{said}");
 }
 
+/// As the daemon behind `ros2 node list` is, and whoever listens before the robots are switched on.
+#[test]
+fn interop_one_who_was_there_first_hears_of_every_node() {
+    let island = Island::new(1);
+    for _ in 0..4 {
+        let lookout = island.lookout(&every_node_of_the_square());
+        let launch = Launch::start(&island, "launch/square.launch.yaml", &["duration:=600.0"]);
+        assert_eq!(lookout.found().as_object().unwrap().len(), 10);
+        launch.interrupt();
+    }
+}
+
+fn every_node_of_the_square() -> String {
+    let nodes = ["testbed", "overhead_localizer", "obstacle_mapper", "rf_bridge", "leader_assignment", "operator"];
+    let controllers = (1..=4).map(|robot| format!(" --wait-for /robot{robot}/formation_controller"));
+    nodes.map(|node| format!(" --wait-for /{node}")).into_iter().chain(controllers).collect()
+}
+
 /// What every node of the square has, when nothing changes any more.
 fn nodes_of_the_square(island: &Island, together: bool) -> Value {
     let argument = format!("together:={together}");
     let _launch = Launch::start(island, "launch/square.launch.yaml", &["duration:=600.0", &argument]);
-    let robots = (1..=4).map(|robot| format!(" --wait-for /robot{robot}/formation_controller"));
-    let ready = format!("--wait-for /operator --wait-for /rf_bridge --settle 8{}", robots.collect::<String>());
-    island.ask("peer_nodes.py", &ready)
+    island.ask("peer_nodes.py", &format!("--settle 8{}", every_node_of_the_square()))
 }
 
 #[test]

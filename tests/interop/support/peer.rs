@@ -10,9 +10,7 @@ use std::time::{Duration, Instant};
 impl Island {
     /// Runs a program to its end and gives the document it prints. Arguments are split at blanks.
     pub(crate) fn ask(&self, program: &str, arguments: &str) -> Value {
-        // Which nodes there are comes by one latched message of each, which RustDDS has been seen to bring to rclpy after 40 s only.
-        let longer = if arguments.contains("--wait-for") { 3 } else { 1 };
-        let patience = (longer * PATIENCE.as_secs()).to_string();
+        let patience = PATIENCE.as_secs().to_string();
         let asked = Instant::now();
         let mut command = self.python(program);
         let output = command.args(arguments.split_whitespace()).args(["--timeout", &patience]).output().unwrap();
@@ -32,6 +30,13 @@ impl Island {
     /// Listens to a topic, given with its type and, where it matters, `--qos`.
     pub(crate) fn follow(&self, topic: &str) -> Follower {
         Follower(Peer::start(self, "peer_echo.py", &format!("{topic} --follow")))
+    }
+
+    /// Waits for nodes, given as options. It is on the network when this returns.
+    pub(crate) fn lookout(&self, nodes: &str) -> Lookout {
+        let peer = Peer::start(self, "peer_nodes.py", &format!("--announce {nodes}"));
+        assert_eq!(peer.line()["waits"], true);
+        Lookout(peer)
     }
 
     /// Will publish on a topic, given with its type and how. Waits for a subscriber.
@@ -87,6 +92,16 @@ impl Publisher {
         let input = self.0.input.as_mut().unwrap();
         writeln!(input, "{message}").unwrap();
         self.0.line()["published"].as_f64().unwrap() * 1e-9
+    }
+}
+
+/// One in rclpy that waits for nodes.
+pub(crate) struct Lookout(Peer);
+
+impl Lookout {
+    /// What each node has, when all are there.
+    pub(crate) fn found(&self) -> Value {
+        self.0.line()
     }
 }
 

@@ -1,7 +1,7 @@
 //! A process's place on the network: one DDS participant for all its nodes.
 
 use super::graph::{Endpoint, Graph};
-use super::pause::Pause;
+use super::pause::{FIRST_STOP, Pause};
 use super::raw::{RawAdapter, RawMessage};
 use super::status::StatusReader;
 use super::{DdsClient, DdsName, DdsReader, DdsServer, DdsWriter, Images, qos};
@@ -46,8 +46,10 @@ impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
         let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
-        let opening = Some(Opening { _pause: Pause::begin(), endpoints: 0 });
+        let pause = Pause::begin();
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
+        pause.wait(FIRST_STOP);
+        let opening = Some(Opening { _pause: pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;

@@ -8,6 +8,12 @@
 //!
 //! What breaks the circle is that the discovery thread stands still, at a place where it holds no lock, while endpoints are
 //! opened. It says so to the [`log`] facade at such places, and the logger, which is ours, returns when it may go on.
+//!
+//! It stands before the first endpoint is opened and has said nothing of this participant by then, so that others learn of it
+//! and of all its endpoints at once. RustDDS puts no time stamp on what it tells of endpoints; Fast DDS, which sorts by them
+//! what several writers sent, forgets for ever the endpoints that it asks for again while it holds later ones (found by
+//! reading its `NotifyChanges` and `history_order_cmp`; docs/decisions/0001-transport.md).
+//!
 //! A release of RustDDS that notifies without the lock makes this file superfluous; one that logs other words fails its test.
 
 use super::malformed;
@@ -18,10 +24,13 @@ use std::time::Duration;
 
 /// Where the discovery thread logs.
 const DISCOVERY: &str = "rustdds::discovery::discovery";
-/// What it says before it works on a participant, and after it has told the network thread of a reader or a writer.
-const LOCK_FREE: [&str; 2] = ["spdp_receive read", "Discovered Writer"];
+/// What it says before it works on a participant, after it has told the network thread of a reader or a writer, and before
+/// it does what is due, such as to announce its participant (first after 0.1 s).
+const LOCK_FREE: [&str; 3] = ["spdp_receive read", "Discovered Writer", "Discovery event loop idling"];
 /// Never longer, whatever happens: others take a participant that is silent for 20 s for lost.
 const LONGEST: Duration = Duration::from_secs(8);
+/// How long a new discovery thread takes, at the most, until it comes to a place where it can be held.
+pub(super) const FIRST_STOP: Duration = Duration::from_millis(500);
 
 /// Discovery of this process stands still while one of these lives.
 pub(super) struct Pause(());
@@ -127,9 +136,11 @@ impl fmt::Write for Beginning<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pause, starts_with};
-    use rustdds::{DomainParticipantBuilder, StatusEvented};
-    use std::time::Duration;
+    use super::{FIRST_STOP, Pause, starts_with};
+    use rustdds::{DomainParticipantBuilder, RTPSEntity, StatusEvented};
+    use socket2::{Domain, Socket, Type};
+    use std::net::{Ipv4Addr, SocketAddrV4, UdpSocket};
+    use std::time::{Duration, Instant};
 
     /// Fails with a release of RustDDS that must be held elsewhere.
     #[test]
@@ -150,6 +161,36 @@ mod tests {
         }
         assert!(found, "nothing was found after the pause");
         drop(other);
+    }
+
+    /// Who hears of a participant early asks for endpoints while others are announced.
+    #[test]
+    fn a_participant_is_silent_while_its_endpoints_are_opened() {
+        let domain = 52;
+        let socket = Socket::new(Domain::IPV4, Type::DGRAM, None).unwrap();
+        socket.set_reuse_address(true).unwrap();
+        let port = 7400 + 250 * domain; // RTPS 2.5, 9.6.2.3: discovery by multicast
+        socket.bind(&SocketAddrV4::new(Ipv4Addr::UNSPECIFIED, port).into()).unwrap();
+        socket.join_multicast_v4(&Ipv4Addr::new(239, 255, 0, 1), &Ipv4Addr::UNSPECIFIED).unwrap();
+        socket.set_read_timeout(Some(Duration::from_millis(400))).unwrap();
+        let socket = UdpSocket::from(socket);
+        let pause = Pause::begin();
+        let participant = DomainParticipantBuilder::new(domain).build().unwrap();
+        assert!(pause.wait(FIRST_STOP));
+        let prefix = &participant.guid().to_bytes()[..12];
+        let mut datagram = [0; 65536];
+        let mut is_announced = || {
+            let start = Instant::now();
+            while start.elapsed() < Duration::from_millis(800) {
+                if socket.recv(&mut datagram).is_ok_and(|length| datagram[..length].get(8..20) == Some(prefix)) {
+                    return true;
+                }
+            }
+            false
+        };
+        assert!(!is_announced(), "announced before it may be");
+        drop(pause);
+        assert!(is_announced());
     }
 
     #[test]
