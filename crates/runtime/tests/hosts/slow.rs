@@ -26,7 +26,7 @@ fn commands_are_young_beside_images(pair: &Pair, rate: &str) {
     // What nodes tell one another when they meet fills such a link for some ten seconds.
     let images = pair.east("latency", &format!("{image} -p count:=10 -r __node:=eye"));
     let taken = "-p read_best_effort:=[\"*\"]";
-    let commands = pair.east("latency", &format!("{command} {taken} -p skip:=550 -p count:=400 -r __node:=wheels"));
+    let commands = pair.east("latency", &format!("{command} {taken} -p skip:=300 -p count:=400 -r __node:=wheels"));
     let _camera = pair.west("latency", &format!("{image} {source} -p network_rate:={rate} -r __node:=camera"));
     let _controller = pair.west("latency", &format!("{command} {source} -r __node:=controller"));
     let (commands, images) = (commands.line(), images.line());

@@ -1,5 +1,6 @@
 //! A process's place on the network: one DDS participant for all its nodes.
 
+use super::announcements::Announcements;
 use super::graph::{Endpoint, Graph};
 use super::pause::{FIRST_STOP, Pause};
 use super::raw::{RawAdapter, RawMessage};
@@ -23,6 +24,8 @@ use trench_msgs::ServiceInfo;
 pub(crate) struct Participant {
     /// Before the participant: this is dropped first, or the participant would wait for a thread that stands still.
     opening: Option<Opening>,
+    /// Before the participant, too: nobody may hear of it after it has gone.
+    _announcements: Announcements,
     participant: DomainParticipant,
     publisher: Publisher,
     subscriber: Subscriber,
@@ -49,12 +52,15 @@ impl Participant {
         let pause = Pause::begin();
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
         pause.wait(FIRST_STOP);
+        let announcements = Announcements::begin(domain, participant.guid()).map_err(|error| {
+            TransportError::Participant { domain, reason: format!("it cannot hear of itself: {error}") }
+        })?;
         let opening = Some(Opening { _pause: pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;
         let graph = Graph::new(&participant, &publisher)?;
-        Ok(Self { opening, participant, publisher, subscriber, graph })
+        Ok(Self { opening, _announcements: announcements, participant, publisher, subscriber, graph })
     }
 
     /// Changes of the ROS graph, for the event loop.
