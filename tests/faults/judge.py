@@ -9,7 +9,7 @@ from pathlib import Path
 
 import wheels
 from bag import NEAR, Run
-from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
+from motion import AGE, allowed, burst, idle, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -28,8 +28,6 @@ LATELY, RESTS = 0.5, 0.005
 LIMITS = (0.31, 5.0)
 # m, between the middles of two robots that touch.
 TOUCH = 0.16
-# s, by which the judge may hear commands later than the bridge, over a link of its own, where the line is tapped: what the bridge did is known there.
-HEARD = 0.15
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
 # s, the longest gap in the bag.
@@ -256,8 +254,11 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
     if run.get("line"):
-        problems += wheels.unfounded(bag, evidence.tap)
-    problems += stale(bag, Run(evidence.seen).basis if evidence.seen.exists() else bag.basis, HEARD if run.get("line") else FRAME)
+        unfounded, basis = wheels.founded(bag, evidence.tap)
+        problems += unfounded
+    else:
+        basis = Run(evidence.seen).basis if evidence.seen.exists() else bag.basis
+    problems += stale(bag, basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")

@@ -1,18 +1,21 @@
 //! Says several times at the start that this process is there.
 //!
 //! RustDDS announces a participant once, and again after 10 s: what a full link or a radio loses then costs the peers
-//! these ten seconds, in which their endpoints cannot be told, and this process asks them in vain ten times a second.
-//! (Measured on a link of 256 kbit/s: 10 s, and a link that was full for 23.) Fast DDS announces itself six times at its start. So what
-//! RustDDS has said comes again, byte by byte: who has heard it drops it by its number.
+//! these ten seconds, in which this process asks them in vain for their endpoints, ten times a second. Measured on a link of
+//! 256 kbit/s: nobody met for 10 s, and the link was full for 23. Fast DDS announces itself six times at its start. So what RustDDS has said
+//! comes again, byte by byte: who has heard it drops it by its number.
+//!
+//! It comes first, too: endpoints that are told to who knows the participant already go out once, to all at once; else each peer asks for
+//! all of them, and where the answer waits behind others for longer than 0.1 s, again and again.
 
-use super::rtps::{DATA, PREFIX, submessages};
+use super::rtps::{DATA, PREFIX, prefix, submessages};
 use rustdds::GUID;
 use socket2::{Domain, Socket, Type};
 use std::io;
 use std::net::{Ipv4Addr, SocketAddrV4, UdpSocket};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Where participants announce themselves (RTPS 2.5, 9.6.2.4.2).
 const GROUP: Ipv4Addr = Ipv4Addr::new(239, 255, 0, 1);
@@ -20,12 +23,25 @@ const GROUP: Ipv4Addr = Ipv4Addr::new(239, 255, 0, 1);
 const ANNOUNCER: [u8; 4] = [0, 1, 0, 0xc2];
 /// After what the announcement comes again, each after the one before, ms.
 const PAUSES: [u64; 6] = [100, 200, 400, 800, 1500, 2500];
-/// How long endpoints may be opened before RustDDS announces the participant (see [`super::pause`]).
-const FIRST: Duration = Duration::from_secs(10);
-/// A look whether the process ends meanwhile.
-const LOOK: Duration = Duration::from_millis(50);
+/// What a participant has announced.
+pub(super) struct Announcement {
+    said: Vec<u8>,
+    /// One for each network.
+    ways: Vec<UdpSocket>,
+    group: SocketAddrV4,
+}
 
-/// Announces one participant.
+impl Announcement {
+    /// Says it again.
+    pub(super) fn repeat(&self) {
+        for way in &self.ways {
+            // Lost, like any other that the network does not carry.
+            let _lost = way.send_to(&self.said, self.group);
+        }
+    }
+}
+
+/// Announces one participant again and again for a while.
 pub(super) struct Announcements {
     /// Closed when the participant goes: nothing may be heard of it after its farewell.
     end: Option<Sender<()>>,
@@ -33,15 +49,17 @@ pub(super) struct Announcements {
 }
 
 impl Announcements {
-    /// Opened before a participant announces itself. Without a network that has multicast there is nothing to do.
-    pub(super) fn begin(domain: u16, participant: GUID) -> io::Result<Self> {
-        let Some(port) = domain.checked_mul(250).and_then(|offset| offset.checked_add(7400)) else {
-            return Ok(Self { end: None, thread: None });
-        };
-        let ways = ways(port)?;
+    pub(super) fn begin(announcement: Announcement) -> io::Result<Self> {
         let (end, ended) = channel();
         let thread = std::thread::Builder::new().name("announcements".to_owned());
-        let thread = thread.spawn(move || repeat(&ways, participant, &ended))?;
+        let thread = thread.spawn(move || {
+            for pause in PAUSES {
+                if ended.recv_timeout(Duration::from_millis(pause)) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+                announcement.repeat();
+            }
+        })?;
         Ok(Self { end: Some(end), thread: Some(thread) })
     }
 }
@@ -54,62 +72,59 @@ impl Drop for Announcements {
     }
 }
 
-/// A network of this host.
-struct Way {
-    hears: UdpSocket,
-    says: UdpSocket,
+/// Where participants of a domain announce themselves, on all networks of this host that have multicast.
+pub(super) struct Announced {
+    hears: Vec<UdpSocket>,
+    addresses: Vec<Ipv4Addr>,
     group: SocketAddrV4,
 }
 
-/// The networks of this host on which participants announce themselves.
-fn ways(port: u16) -> io::Result<Vec<Way>> {
-    let interfaces = netdev::get_interfaces();
-    let fit = interfaces.iter().filter(|interface| interface.is_multicast() && !interface.is_loopback());
-    let addresses = fit.flat_map(|interface| interface.ipv4.iter().map(|network| network.addr()));
-    addresses.map(|address| way(address, SocketAddrV4::new(GROUP, port))).collect()
+impl Announced {
+    /// Listens to a domain, whose number RustDDS has looked at or will.
+    pub(super) fn listen(domain: u16) -> io::Result<Self> {
+        let group = SocketAddrV4::new(GROUP, domain.saturating_mul(250).saturating_add(7400));
+        let interfaces = netdev::get_interfaces();
+        let fit = interfaces.iter().filter(|interface| interface.is_multicast() && !interface.is_loopback());
+        let addresses: Vec<_> = fit.flat_map(|interface| interface.ipv4.iter().map(|network| network.addr())).collect();
+        let hears = addresses.iter().map(|address| hearer(group, *address)).collect::<io::Result<_>>()?;
+        Ok(Self { hears, addresses, group })
+    }
+
+    /// Whether there is a network that has multicast.
+    pub(super) fn can_hear(&self) -> bool {
+        !self.hears.is_empty()
+    }
+
+    /// What a participant of this process has said of itself since the last look.
+    pub(super) fn own(&self, participant: GUID) -> io::Result<Option<Announcement>> {
+        // What it says on one network is heard on the others, too, from the same host.
+        let Some(hears) = self.hears.first() else { return Ok(None) };
+        let mut datagram = vec![0; 65_536];
+        while let Ok(length) = hears.recv(&mut datagram) {
+            if is_announcement(&datagram[..length], &prefix(participant)) {
+                datagram.truncate(length);
+                let ways = self.addresses.iter().map(|address| sender(*address)).collect::<io::Result<_>>()?;
+                return Ok(Some(Announcement { said: datagram, ways, group: self.group }));
+            }
+        }
+        Ok(None)
+    }
 }
 
-fn way(address: Ipv4Addr, group: SocketAddrV4) -> io::Result<Way> {
-    let hears = Socket::new(Domain::IPV4, Type::DGRAM, None)?;
-    hears.set_reuse_address(true)?;
+fn hearer(group: SocketAddrV4, address: Ipv4Addr) -> io::Result<UdpSocket> {
+    let socket = Socket::new(Domain::IPV4, Type::DGRAM, None)?;
+    socket.set_reuse_address(true)?;
     // Bound to the group, it hears nothing else.
-    hears.bind(&group.into())?;
-    hears.join_multicast_v4(&GROUP, &address)?;
-    hears.set_read_timeout(Some(LOOK))?;
-    let says = Socket::new(Domain::IPV4, Type::DGRAM, None)?;
-    says.set_multicast_if_v4(&address)?;
-    Ok(Way { hears: hears.into(), says: says.into(), group })
+    socket.bind(&group.into())?;
+    socket.join_multicast_v4(&GROUP, &address)?;
+    socket.set_nonblocking(true)?;
+    Ok(socket.into())
 }
 
-/// Hears the participant's announcement and repeats it until all is said or the process ends.
-fn repeat(ways: &[Way], participant: GUID, ended: &Receiver<()>) {
-    let participant = participant.to_bytes();
-    let Some((announcer, _)) = participant.split_first_chunk::<PREFIX>() else { return };
-    let Some(announcement) = ways.first().and_then(|way| own(&way.hears, announcer, ended)) else { return };
-    for pause in PAUSES {
-        if ended.recv_timeout(Duration::from_millis(pause)) != Err(RecvTimeoutError::Timeout) {
-            return;
-        }
-        for way in ways {
-            // Lost, like any other that the network does not carry.
-            let _lost = way.says.send_to(&announcement, way.group);
-        }
-    }
-}
-
-/// What a participant says of itself.
-fn own(hears: &UdpSocket, participant: &[u8; PREFIX], ended: &Receiver<()>) -> Option<Vec<u8>> {
-    let mut datagram = vec![0; 65_536];
-    let start = Instant::now();
-    while start.elapsed() < FIRST && ended.try_recv() == Err(std::sync::mpsc::TryRecvError::Empty) {
-        let length = hears.recv(&mut datagram).unwrap_or_default();
-        if let Some(said) = datagram.get(..length)
-            && is_announcement(said, participant)
-        {
-            return Some(said.to_vec());
-        }
-    }
-    None
+fn sender(address: Ipv4Addr) -> io::Result<UdpSocket> {
+    let socket = Socket::new(Domain::IPV4, Type::DGRAM, None)?;
+    socket.set_multicast_if_v4(&address)?;
+    Ok(socket.into())
 }
 
 /// Whether a datagram announces this participant.
@@ -120,40 +135,55 @@ fn is_announcement(datagram: &[u8], participant: &[u8; PREFIX]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rtps::prefix;
     use super::*;
-    use rustdds::{DomainParticipantBuilder, RTPSEntity};
+    use crate::transport::dds::Participant;
+    use crate::transport::network::{Network, TopicName};
+    use std::time::Instant;
+    use trench_core::Qos;
+    use trench_msgs::Message;
+    use trench_msgs::rcl_interfaces::Log;
+
+    /// RTPS 2.5, 9.3.1.6: SEDPbuiltinPublicationsWriter.
+    const TELLS_WRITERS: [u8; 4] = [0, 0, 3, 0xc2];
+
+    /// What participants of a domain say, which has no others, in order: under which name, and the whole of it.
+    fn heard(announced: &Announced, patience: f64) -> Vec<([u8; 4], Vec<u8>)> {
+        let (start, mut all, mut datagram) = (Instant::now(), Vec::new(), vec![0; 65_536]);
+        while start.elapsed() < Duration::from_secs_f64(patience) {
+            let Ok(length) = announced.hears[0].recv(&mut datagram) else {
+                std::thread::sleep(Duration::from_millis(5));
+                continue;
+            };
+            let said = submessages(&datagram[..length]).filter(|(kind, _)| *kind == DATA);
+            all.extend(said.map(|(_, content)| (content[8..12].try_into().unwrap(), datagram[..length].to_vec())));
+        }
+        all
+    }
 
     #[test]
-    fn a_participant_is_announced_again_and_not_after_its_farewell() {
-        let domain = 53;
-        let ways = ways(7400 + 250 * domain).unwrap();
-        let Some(way) = ways.first() else { return println!("SKIPPED: no network that has multicast") };
-        let participant = DomainParticipantBuilder::new(domain).build().unwrap();
-        let again = Announcements::begin(domain, participant.guid()).unwrap();
-        let prefix = prefix(participant.guid());
-        let mut datagram = vec![0; 65_536];
-        let mut announcements = |patience: f64| {
-            let start = Instant::now();
-            let mut heard = Vec::new();
-            while start.elapsed() < Duration::from_secs_f64(patience) {
-                let length = way.hears.recv(&mut datagram).unwrap_or_default();
-                if is_announcement(&datagram[..length], &prefix) {
-                    heard.push(datagram[..length].to_vec());
-                }
-            }
-            heard
-        };
-        let heard = announcements(2.0);
-        let first = heard.first().unwrap();
-        let same = heard.iter().filter(|other| *other == first).count();
-        assert!(same > 4, "{same} of {} the same", heard.len());
+    fn a_participant_is_announced_first_then_its_endpoints_and_nothing_after_its_farewell() {
+        let domain = 54;
+        let announced = Announced::listen(domain).unwrap();
+        if !announced.can_hear() {
+            return println!("SKIPPED: no network that has multicast");
+        }
+        let mut participant = Participant::join(domain).unwrap();
+        let name = TopicName::new("/rosout", Log::TYPE);
+        let _writer = participant.writer("/speaker", &name, Qos::RELIABLE).unwrap();
+        let before = heard(&announced, 0.5);
+        assert!(before.iter().filter(|(who, _)| *who == ANNOUNCER).count() > 1, "not announced");
+        assert!(before.iter().all(|(who, _)| *who != TELLS_WRITERS), "its endpoints are told before all are open");
+        participant.announce().unwrap();
+        let after = heard(&announced, 2.0);
+        assert!(after.iter().any(|(who, _)| *who == TELLS_WRITERS), "nothing of its endpoints");
+        let first = &before[0].1;
+        let same = before.iter().chain(&after).filter(|(_, said)| said == first).count();
+        assert!(same > 4, "announced {same} times");
         let leaving = Instant::now();
-        drop(again);
-        assert!(leaving.elapsed() < Duration::from_millis(300), "it took {:?} to stop", leaving.elapsed());
         drop(participant);
+        assert!(leaving.elapsed() < Duration::from_secs(1), "it took {:?} to leave", leaving.elapsed());
         // What lies in the socket came before.
-        let _before = announcements(0.1);
-        assert_eq!(announcements(2.0).len(), 0, "announced after its farewell");
+        let _before = heard(&announced, 0.1);
+        assert!(heard(&announced, 2.0).is_empty(), "announced after its farewell");
     }
 }

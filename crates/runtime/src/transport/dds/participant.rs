@@ -1,6 +1,6 @@
 //! A process's place on the network: one DDS participant for all its nodes.
 
-use super::announcements::Announcements;
+use super::announcements::{Announced, Announcements};
 use super::graph::{Endpoint, Graph};
 use super::pause::{FIRST_STOP, Pause};
 use super::raw::{RawAdapter, RawMessage};
@@ -25,12 +25,15 @@ pub(crate) struct Participant {
     /// Before the participant: this is dropped first, or the participant would wait for a thread that stands still.
     opening: Option<Opening>,
     /// Before the participant, too: nobody may hear of it after it has gone.
-    _announcements: Announcements,
+    _announcements: Option<Announcements>,
     participant: DomainParticipant,
     publisher: Publisher,
     subscriber: Subscriber,
     graph: Graph,
 }
+
+/// How long it may take until a participant has announced itself; as a rule 0.1 s.
+const ANNOUNCED: Duration = Duration::from_secs(1);
 
 /// While endpoints are opened.
 struct Opening {
@@ -49,12 +52,24 @@ impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
         let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
+        let deaf = |error: std::io::Error| TransportError::Participant {
+            domain,
+            reason: format!("it cannot hear of itself: {error}"),
+        };
+        let announced = Announced::listen(domain).map_err(deaf)?;
         let pause = Pause::begin();
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
-        pause.wait(FIRST_STOP);
-        let announcements = Announcements::begin(domain, participant.guid()).map_err(|error| {
-            TransportError::Participant { domain, reason: format!("it cannot hear of itself: {error}") }
-        })?;
+        // It stops before it announces the participant, and where it hears that, or of others.
+        let start = Instant::now();
+        let announcement = loop {
+            let is_held = pause.wait(FIRST_STOP);
+            let own = announced.own(participant.guid()).map_err(deaf)?;
+            if own.is_some() || !is_held || !announced.can_hear() || start.elapsed() > ANNOUNCED {
+                break own;
+            }
+            pause.step();
+        };
+        let announcements = announcement.map(Announcements::begin).transpose().map_err(deaf)?;
         let opening = Some(Opening { _pause: pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
