@@ -253,11 +253,8 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
-    if run.get("line"):
-        unfounded, basis = wheels.founded(bag, evidence.tap)
-        problems += unfounded
-    else:
-        basis = Run(evidence.seen).basis if evidence.seen.exists() else bag.basis
+    unfounded, basis = wheels.founded(bag, evidence.tap)
+    problems += unfounded
     problems += stale(bag, basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:

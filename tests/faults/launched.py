@@ -1,6 +1,5 @@
 """A formation as processes, on this host or on several, and the recorder whose bag is judged."""
 
-import json
 import os
 import re
 import shutil
@@ -127,8 +126,7 @@ class Launched:
         bed = [fault["bed"] for fault in run["faults"] if "bed" in fault]
         faults = self.folder / "faults.yaml"
         faults.write_text(yaml.safe_dump({"faults": bed}))
-        if run.get("line"):
-            self.line = Line(self.folder / "port", self.folder / "plug", self.tap)
+        self.line = Line(self.folder / "port", self.folder / "plug", self.tap)
         if self.clocks:
             self._make_clocks()
         if "disk" in run:
@@ -142,7 +140,7 @@ class Launched:
             "seed": str(seed),
             **({"faults": str(faults)} if bed else {}),
             **({"key": str(self._make_key())} if run.get("key") else {}),
-            **({"bridge_port": str(self.folder / "plug")} if self.line else {}),
+            "bridge_port": str(self.folder / "plug"),
             **({} if not self.hosts else {"bridge": "false"} if self.hosts.kind == RADIO else {"controllers": "false"}),
         }
         # Over a slow link nobody records what robots report.
@@ -158,7 +156,7 @@ class Launched:
         self.launch(BASE, run["launch"], **arguments)
         if self.hosts and self.hosts.kind == RADIO:
             self.launch(
-                RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "port"), read_best_effort='["*"]'
+                RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "plug"), read_best_effort='["*"]'
             )
             self._look()
         elif self.hosts:
@@ -166,7 +164,7 @@ class Launched:
                 self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
 
     def _look(self) -> None:
-        """A small camera on the base station, and somebody on the radio's host who records it, and what commands come there."""
+        """A small camera on the base station, and somebody on the radio's host who records it."""
         pictures = self.folder / "pictures"
         pictures.mkdir()
         (pictures / "floor.png").write_bytes(picture(*PICTURE))
@@ -175,10 +173,9 @@ class Launched:
             "-p", "source:=folder", "-p", f"path:={pictures}", "-p", "rate:=10.0", "-p", "repeat:=true",
             "-p", f"publish_over_network:=[{IMAGES}]", "-p", "network_rate:=25000.0",
         ))
-        topics = [f"{IMAGES}:sensor_msgs/msg/Image", *(f"/{robot}/cmd_vel:geometry_msgs/msg/TwistStamped" for robot in ROBOTS)]
         self.beside.append(self.start(
             RADIO, "bag_recorder", "--ros-args", "-r", "__node:=viewer", "-p", f"output:={self.seen}",
-            "-p", f"topics:=[{', '.join(map(json.dumps, topics))}]", "-p", 'read_best_effort:=["*"]',
+            "-p", f"topics:=['{IMAGES}:sensor_msgs/msg/Image']", "-p", 'read_best_effort:=["*"]',
         ))
 
     def launch(self, host: str, file: str, **arguments: str) -> None:

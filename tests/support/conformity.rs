@@ -53,6 +53,8 @@ pub(crate) struct Conformed {
     pub(crate) points: BTreeMap<String, [f64; 2]>,
     /// Where each robot looks at the end, rad.
     pub(crate) headings: BTreeMap<String, f64>,
+    /// Where its formation does, rad.
+    formation: f64,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
     pub(crate) hindrance: Hindrance,
@@ -119,6 +121,7 @@ impl Conformity {
                 conformed.robots.insert(robot.clone(), way);
             }
         }
+        conformed.formation = self.frames.last_key_value().unwrap().1[2];
         let (_, last) = self.assignments.last_key_value().unwrap();
         let member = |member: &trench_msgs::msg::Member| (member.robot.clone(), member.queue, member.rank);
         conformed.assignment = last.members.iter().map(member).collect();
@@ -170,11 +173,12 @@ impl Conformed {
 
     /// The largest angle between where a robot looks in both runs, at the end, rad.
     pub(crate) fn turned(&self, other: &Self) -> f64 {
-        let turned = |(robot, heading): (&String, &f64)| {
-            let (sine, cosine) = libm::sincos(heading - other.headings[robot]);
-            libm::atan2(sine, cosine).abs()
-        };
-        self.headings.iter().map(turned).fold(0.0, f64::max)
+        self.headings.iter().map(|(robot, heading)| angle(heading - other.headings[robot])).fold(0.0, f64::max)
+    }
+
+    /// The largest angle between where a robot looks and where its formation does, at the end, rad.
+    pub(crate) fn askew(&self) -> f64 {
+        self.headings.values().map(|heading| angle(heading - self.formation)).fold(0.0, f64::max)
     }
 
     /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:
@@ -225,6 +229,12 @@ impl Conformed {
         let last = self.at(f64::INFINITY);
         behind.map(|pair| (last[pair[0].0.as_str()].place - last[pair[1].0.as_str()].place).norm()).collect()
     }
+}
+
+/// rad, without sign.
+fn angle(turned: f64) -> f64 {
+    let (sine, cosine) = libm::sincos(turned);
+    libm::atan2(sine, cosine).abs()
 }
 
 fn nanoseconds(time: &trench_msgs::builtin_interfaces::Time) -> i64 {

@@ -45,6 +45,8 @@ pub(crate) struct Settings {
     pub(crate) body_radius: f64,
     pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
+    /// Whether the robot turns the way the formation faces when both rest.
+    pub(crate) faces: bool,
     pub(crate) monitor: MonitorSettings,
     /// s, between two pictures; 0: none.
     pub(crate) picture_period: f64,
@@ -115,6 +117,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         ),
         P::double("markers.period", 0.4, "s, between two pictures on /markers under dynamic laws; 0: none")
             .range(0.0, 60.0),
+        P::string(
+            "face",
+            "anywhere",
+            "which way a robot at rest faces: anywhere; formation: as the formation does, once that rests, too",
+        ),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
     ];
     all.extend(dynamic::descriptors());
@@ -165,6 +172,7 @@ impl Settings {
             body_radius: double("body.radius")?,
             field: field(parameters)?,
             stamped: parameters.bool("stamped")?,
+            faces: faces(parameters)?,
             monitor: MonitorSettings::read(parameters)?,
             picture_period: double("markers.period")?,
         })
@@ -203,6 +211,14 @@ fn by_radio(parameters: &Parameters) -> Result<bool, ConfigError> {
         "radio" => Ok(true),
         "network" => Ok(false),
         _ => Err(parameters.error("team_link", "is no team link", "write radio or network")),
+    }
+}
+
+fn faces(parameters: &Parameters) -> Result<bool, ConfigError> {
+    match parameters.str("face")? {
+        "anywhere" => Ok(false),
+        "formation" => Ok(true),
+        _ => Err(parameters.error("face", "says no way to face", "write anywhere or formation")),
     }
 }
 

@@ -37,7 +37,7 @@ const ANNOUNCED: Duration = Duration::from_secs(1);
 
 /// While endpoints are opened.
 struct Opening {
-    _pause: Pause,
+    pause: Pause,
     /// How many were opened in this pause.
     endpoints: usize,
 }
@@ -70,7 +70,7 @@ impl Participant {
             pause.step();
         };
         let announcements = announcement.map(Announcements::begin).transpose().map_err(deaf)?;
-        let opening = Some(Opening { _pause: pause, endpoints: 0 });
+        let opening = Some(Opening { pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;
@@ -128,7 +128,7 @@ impl Participant {
             std::thread::sleep(BREATH);
             let pause = Pause::begin();
             pause.wait(BREATH);
-            self.opening = Some(Opening { _pause: pause, endpoints: 0 });
+            self.opening = Some(Opening { pause, endpoints: 0 });
         }
     }
 
@@ -168,6 +168,14 @@ impl Network for Participant {
         self.graph.announce()?;
         self.opening = None;
         Ok(())
+    }
+
+    fn prepare_to_open(&mut self) {
+        self.opening.get_or_insert_with(|| Opening { pause: Pause::begin(), endpoints: 0 });
+    }
+
+    fn is_prepared(&self) -> bool {
+        self.opening.as_ref().is_some_and(|opening| opening.pause.wait(Duration::ZERO))
     }
 
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {
