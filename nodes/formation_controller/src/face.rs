@@ -1,4 +1,5 @@
-//! A robot that has come to rest turns the way its formation faces, where `face` asks for it.
+//! A robot that has come to rest turns the way its formation faces, where `face` asks for it: at each rest of the formation, or where it
+//! has arrived.
 //!
 //! Meanwhile the law goes on as if the point that it steers were where it will be again: if that is to move, because the target, the leader,
 //! the formation or an obstacle does, the law drives at once, from there, and the robot catches up with it. Followers hear of this point.
@@ -16,6 +17,16 @@ const LONGEST: f64 = 15.0;
 const FRAME_RESTS: (f64, f64) = (0.003, 0.01);
 /// s, in which a robot catches up with the point that its law has gone on with.
 const CATCHES_UP: f64 = 2.0;
+
+/// When robots turn the way their formation faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Faces {
+    Never,
+    /// Whenever it rests.
+    AtRest,
+    /// When it rests and has moved before.
+    Arrived,
+}
 
 /// What a robot at rest does about the way it faces.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,20 +51,18 @@ enum Stage {
 
 impl Face {
     /// From where the point before the axle is, at `point`, to where it is for the law, m, map; and how fast that changes, m/s, if the
-    /// former moves at `velocity`.
+    /// former moves at `velocity`. None where it is the same.
     pub(crate) fn ahead(
         &self,
         now: Steady,
         (point, velocity): (Vector2<f64>, Vector2<f64>),
-    ) -> (Vector2<f64>, Vector2<f64>) {
-        match (&self.stage, self.behind) {
-            (Stage::Turning(facing, _), _) => (facing.point() - point, -velocity),
-            (_, Some((behind, since))) => {
-                let left = 1.0 - now.seconds_since(since) / CATCHES_UP;
-                if left > 0.0 { (left * behind, -behind / CATCHES_UP) } else { (Vector2::zeros(), Vector2::zeros()) }
-            }
-            _ => (Vector2::zeros(), Vector2::zeros()),
+    ) -> Option<(Vector2<f64>, Vector2<f64>)> {
+        if let Stage::Turning(facing, _) = &self.stage {
+            return Some((facing.point() - point, -velocity));
         }
+        let (behind, since) = self.behind?;
+        let left = 1.0 - now.seconds_since(since) / CATCHES_UP;
+        (left > 0.0).then(|| (left * behind, -behind / CATCHES_UP))
     }
 
     /// Goes on to `stage`. `point` is where the point before the axle is.
@@ -89,10 +98,16 @@ impl Tick {
     }
 
     /// How the formation faces, rad, map, while it rests and the robot is to face so.
-    fn faces(&self, acts: RosTime) -> Option<f64> {
-        let (frame, motion) = self.inputs.goals.frame(acts).filter(|_| self.settings.faces)?;
+    fn faces(&mut self, acts: RosTime) -> Option<f64> {
+        let (frame, motion) = self.inputs.goals.frame(acts)?;
         let (speed, turn) = FRAME_RESTS;
         let rests = motion.origin.velocity.norm() < speed && motion.turn_rate.abs() < turn;
-        rests.then(|| frame.rotation.angle())
+        self.formation_moved |= !rests;
+        let is_asked_for = match self.settings.faces {
+            Faces::Never => false,
+            Faces::AtRest => true,
+            Faces::Arrived => self.formation_moved,
+        };
+        (rests && is_asked_for).then(|| libm::atan2(frame.rotation.im, frame.rotation.re))
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::Law;
 use crate::dynamic::{self, DynamicSettings, check_damping};
+use crate::face::Faces;
 use crate::monitor::{self, MonitorSettings};
 use std::sync::Arc;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
@@ -45,8 +46,8 @@ pub(crate) struct Settings {
     pub(crate) body_radius: f64,
     pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
-    /// Whether the robot turns the way the formation faces when both rest.
-    pub(crate) faces: bool,
+    /// When the robot turns the way the formation faces.
+    pub(crate) faces: Faces,
     pub(crate) monitor: MonitorSettings,
     /// s, between two pictures; 0: none.
     pub(crate) picture_period: f64,
@@ -120,7 +121,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string(
             "face",
             "anywhere",
-            "which way a robot at rest faces: anywhere; formation: as the formation does, once that rests, too",
+            "which way a robot at rest faces: anywhere; formation: as that does, once it rests, too; arrived: so, if it has moved before",
         ),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
     ];
@@ -214,11 +215,12 @@ fn by_radio(parameters: &Parameters) -> Result<bool, ConfigError> {
     }
 }
 
-fn faces(parameters: &Parameters) -> Result<bool, ConfigError> {
+fn faces(parameters: &Parameters) -> Result<Faces, ConfigError> {
     match parameters.str("face")? {
-        "anywhere" => Ok(false),
-        "formation" => Ok(true),
-        _ => Err(parameters.error("face", "says no way to face", "write anywhere or formation")),
+        "anywhere" => Ok(Faces::Never),
+        "formation" => Ok(Faces::AtRest),
+        "arrived" => Ok(Faces::Arrived),
+        _ => Err(parameters.error("face", "says no way to face", "write anywhere, formation or arrived")),
     }
 }
 

@@ -34,13 +34,13 @@ impl Tick {
         let (map_from_segment, motion) = self.inputs.goals.frame(acts).ok_or(Hold::NoGoal)?;
         let duration = self.inputs.interval().min(self.settings.period);
         let point = ahead.position() + settings.look_ahead * ahead.heading();
-        let (aside, parting) = self.face.ahead(at.steady, (point, self.told(settings, ahead, acts)));
+        let aside = self.face.ahead(at.steady, (point, self.told(settings, ahead, acts)));
         let robot = PointState {
-            position: point + aside,
-            velocity: self
-                .reference
-                .and_then(|reference| reference.at(acts))
-                .unwrap_or_else(|| self.told(settings, ahead, acts) + parting),
+            position: aside.map_or(point, |(aside, _)| point + aside),
+            velocity: self.reference.and_then(|reference| reference.at(acts)).unwrap_or_else(|| {
+                let told = self.told(settings, ahead, acts);
+                aside.map_or(told, |(_, parting)| told + parting)
+            }),
         };
         // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
         let follows = !(member.leader.is_empty() || command.lost);
@@ -112,10 +112,11 @@ impl Tick {
             .zone
             .zip(chain.leader)
             .map(|(zone, leader)| (zone, (leader.leader.state.position - robot.position).norm()));
+        let mean = driven.mean_velocity;
         let deviation = Some(action.deviation).filter(|deviation| deviation.is_finite());
         Ok(Wanted {
-            twist: self.twist(settings, ahead, driven.mean_velocity - parting, duration),
-            rests: driven.mean_velocity.norm() < settings.rest_speed,
+            twist: self.twist(settings, ahead, aside.map_or(mean, |(_, parting)| mean - parting), duration),
+            rests: mean.norm() < settings.rest_speed,
             drawn: action.attraction,
             place: action.place.map(|place| map_from_segment.inverse_transform_point(&place.into()).coords),
             error,
@@ -128,7 +129,7 @@ impl Tick {
             detour: action.attraction.filter(|_| settings.detours),
             pace: settings.pace(&action, chain.leader.is_some()),
             // Of a robot that catches up with its law there is nothing to watch.
-            watched: (aside == Vector2::zeros()).then_some(watched),
+            watched: aside.is_none().then_some(watched),
             zone,
         })
     }
@@ -172,7 +173,8 @@ impl Tick {
         let differs = (wanted.v - sent.v).abs() + (wanted.omega - sent.omega).abs() > SAME;
         if differs {
             let driven = self.steered_velocity(ahead, sent);
-            let velocity = driven + self.face.ahead(now, (ahead.position(), driven)).1;
+            let aside = self.face.ahead(now, (ahead.position(), driven));
+            let velocity = aside.map_or(driven, |(_, parting)| driven + parting);
             self.reference = self.reference.map(|reference| reference.replaced(velocity));
         }
     }
@@ -188,8 +190,8 @@ impl Tick {
         let (settings, pose) = (self.settings.dynamic.as_ref()?, command.pose?);
         let point = pose.position() + settings.look_ahead * pose.heading();
         let velocity = self.told(settings, pose, command.exposure);
-        let (aside, parting) = self.face.ahead(now, (point, velocity));
-        Some((point + aside, velocity + parting))
+        let aside = self.face.ahead(now, (point, velocity));
+        Some(aside.map_or((point, velocity), |(aside, parting)| (point + aside, velocity + parting)))
     }
 
     /// Distance of the robot's centre at the exposure from its segment, and the queue's tolerance, m.

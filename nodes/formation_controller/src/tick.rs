@@ -91,6 +91,8 @@ pub(crate) struct Tick {
     /// Where the law goes on.
     pub(crate) reference: Option<Reference>,
     pub(crate) face: Face,
+    /// Whether the formation has moved since this process drives.
+    pub(crate) formation_moved: bool,
     pub(crate) monitor: Monitor,
     /// M_j of (8.26).
     pub(crate) recursion: Recursion,
@@ -127,6 +129,7 @@ impl Tick {
             detour: None,
             reference: None,
             face: Face::default(),
+            formation_moved: false,
         }
     }
 

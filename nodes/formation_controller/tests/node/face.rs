@@ -27,8 +27,15 @@ fn points(bench: &Bench) -> [Vector2<f64>; 2] {
 
 #[test]
 fn a_robot_at_rest_turns_the_way_its_formation_faces_and_stands_where_it_stood() {
-    for (face, turns) in [("formation", true), ("anywhere", false)] {
+    for (face, turns) in [("formation", true), ("arrived", true), ("anywhere", false)] {
         let mut bench = askew(face);
+        if face == "arrived" {
+            bench.drive(90);
+            assert_eq!(bench.pose.theta, -2.5, "the formation has not moved yet");
+            bench.moves = Point2 { x: 1e-2, y: 0.0 };
+            bench.drive(1);
+            bench.moves = Point2::default();
+        }
         let goal = Vector2::new(bench.goal.x, bench.goal.y);
         for _ in 0..450 {
             bench.drive(1);
@@ -77,5 +84,5 @@ fn laws_of_chapter_4_turn_on_the_spot() {
 #[test]
 fn an_unknown_way_to_face_is_refused() {
     let refusal = make(&[("face", "north")]).err().unwrap();
-    assert!(refusal.contains("face") && refusal.contains("write anywhere or formation"), "{refusal}");
+    assert!(refusal.contains("face") && refusal.contains("write anywhere, formation or arrived"), "{refusal}");
 }
