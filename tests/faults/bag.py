@@ -57,6 +57,8 @@ class Run:
         self.stamps: dict[str, Series] = {}
         # Of each robot in each assignment: its queue, its rank and whom it follows.
         self.assignments = Series()
+        # How far each robot is from its segment, m, by its own word; infinitely where it has none.
+        self.segments: dict[str, Series] = {}
         # Ages of images that came, s.
         self.images = Series()
         self.goals = Series()
@@ -99,6 +101,9 @@ class Run:
                 return
             self.commands.setdefault(parts[0], Series()).add(at, (message.twist.linear.x, message.twist.angular.z))
             self.stamps.setdefault(parts[0], Series()).add(at, self._time(message.header.stamp, at))
+        elif parts[-1] == "leader_state":
+            distance = message.segment_distance if message.rank > 0 else math.inf
+            self.segments.setdefault(message.robot, Series()).add(self._time(message.header.stamp, at), distance)
         elif topic == "/assignment":
             if message.epoch < FOREIGN_EPOCH:
                 self.assignments.add(at, {member.robot: (member.queue, member.rank, member.leader) for member in message.members})

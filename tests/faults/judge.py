@@ -132,7 +132,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if "pause" in fault:
         verdict.problems += burst(bag, ended)
     structure(bag, fault, (began, ended, min(ended + FORMATION, following)), verdict)
-    recover(bag, ended, min(ended + FORMATION, following), verdict, settles=not fault.get("unsettled"))
+    recover(bag, ended, min(ended + FORMATION, following), verdict, fault)
     return verdict
 
 
@@ -209,8 +209,11 @@ def since_when(holds, ended: float, until: float) -> float | None:
     return failed[-1] + 0.05 - ended if failed else 0.0
 
 
-def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: bool) -> None:
-    """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it."""
+def recover(bag: Run, ended: float, until: float, verdict: Verdict, fault: dict) -> None:
+    """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it.
+
+    A chain behind a moving target stands where each robot is on its segment (`forms: segments`); else at its goal points.
+    """
     robots = sorted(bag.truth)
     until = min(until, max(series.times[-1] for series in bag.truth.values()), bag.stopped or math.inf)
 
@@ -224,16 +227,19 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: boo
     verdict.recovered = since_when(lambda at: all(is_driven(robot, at) for robot in robots), ended, until)
     if verdict.recovered is None or verdict.recovered > RECOVERY:
         verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
-    if not settles:
+    if fault.get("unsettled"):
         return
 
+    def from_place(robot: str, at: float) -> float | None:
+        return bag.segments[robot].at(at) if fault.get("forms") == "segments" else bag.distance(robot, at)
+
     def stands(at: float) -> bool:
-        distances = [bag.distance(robot, at) for robot in robots]
+        distances = [from_place(robot, at) for robot in robots]
         return all(distance is not None and distance < NEAR for distance in distances)
 
     verdict.formed = since_when(stands, ended, until)
     if verdict.formed is None:
-        far = {robot: bag.distance(robot, until - 0.1) for robot in robots}
+        far = {robot: from_place(robot, until - 0.1) for robot in robots}
         verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 

@@ -78,7 +78,7 @@ impl Tick {
     /// What the robot does instead of resting as the law wants; none where the law drives.
     pub(crate) fn face(&mut self, (at, acts): (Times, RosTime), ahead: Pose, wanted: &Wanted) -> Option<Twist> {
         let now = at.steady;
-        let look_ahead = self.settings.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead);
+        let look_ahead = self.settings.look_ahead();
         let heading = self.faces(acts).filter(|_| wanted.rests);
         let (stage, twist) = match (self.face.stage, heading) {
             (_, None) => (Stage::Driving, None),

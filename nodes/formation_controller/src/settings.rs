@@ -131,6 +131,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
 }
 
 impl Settings {
+    /// m, from the axle forward to the point that the law drives: 0 under the laws of chapter 4.
+    pub(crate) fn look_ahead(&self) -> f64 {
+        self.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead)
+    }
+
     pub(crate) fn read(parameters: &Parameters, namespace: &str) -> Result<Self, ConfigError> {
         let double = |name: &str| parameters.f64(name);
         let robot = match parameters.str("robot")? {

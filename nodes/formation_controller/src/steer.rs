@@ -181,8 +181,7 @@ impl Tick {
 
     /// How the steered point moves under `twist`; without a dynamic law that is the middle of the axle.
     pub(crate) fn steered_velocity(&self, pose: Pose, twist: Twist) -> Vector2<f64> {
-        let look_ahead = self.settings.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead);
-        hand_velocity(look_ahead, pose, twist)
+        hand_velocity(self.settings.look_ahead(), pose, twist)
     }
 
     /// What followers hear of the steered point: where it was at the exposure, and how it moved.

@@ -72,42 +72,42 @@ impl Drop for Announcements {
     }
 }
 
-/// Where participants of a domain announce themselves, on all networks of this host that have multicast.
+/// Where participants of a domain announce themselves, on all networks of this host that have multicast: what hears them on each, and what
+/// can be said there.
 pub(super) struct Announced {
-    hears: Vec<UdpSocket>,
-    addresses: Vec<Ipv4Addr>,
+    networks: Vec<(UdpSocket, UdpSocket)>,
     group: SocketAddrV4,
 }
 
 impl Announced {
-    /// Listens to a domain, whose number RustDDS has looked at or will.
-    pub(super) fn listen(domain: u16) -> io::Result<Self> {
+    /// Listens to a domain. A network on which that cannot be done is left out: RustDDS has its own word on such.
+    pub(super) fn listen(domain: u16) -> Self {
         let group = SocketAddrV4::new(GROUP, domain.saturating_mul(250).saturating_add(7400));
         let interfaces = netdev::get_interfaces();
         let fit = interfaces.iter().filter(|interface| interface.is_multicast() && !interface.is_loopback());
-        let addresses: Vec<_> = fit.flat_map(|interface| interface.ipv4.iter().map(|network| network.addr())).collect();
-        let hears = addresses.iter().map(|address| hearer(group, *address)).collect::<io::Result<_>>()?;
-        Ok(Self { hears, addresses, group })
+        let addresses = fit.flat_map(|interface| interface.ipv4.iter().map(|network| network.addr()));
+        let networks = addresses.filter_map(|address| Some((hearer(group, address).ok()?, sender(address).ok()?)));
+        Self { networks: networks.collect(), group }
     }
 
     /// Whether there is a network that has multicast.
     pub(super) fn can_hear(&self) -> bool {
-        !self.hears.is_empty()
+        !self.networks.is_empty()
     }
 
-    /// What a participant of this process has said of itself since the last look.
-    pub(super) fn own(&self, participant: GUID) -> io::Result<Option<Announcement>> {
+    /// Takes what a participant of this process has said of itself since the last look.
+    pub(super) fn own(&mut self, participant: GUID) -> Option<Announcement> {
         // What it says on one network is heard on the others, too, from the same host.
-        let Some(hears) = self.hears.first() else { return Ok(None) };
+        let (hears, _) = self.networks.first()?;
         let mut datagram = vec![0; 65_536];
         while let Ok(length) = hears.recv(&mut datagram) {
             if is_announcement(&datagram[..length], &prefix(participant)) {
                 datagram.truncate(length);
-                let ways = self.addresses.iter().map(|address| sender(*address)).collect::<io::Result<_>>()?;
-                return Ok(Some(Announcement { said: datagram, ways, group: self.group }));
+                let ways = self.networks.drain(..).map(|(_, says)| says).collect();
+                return Some(Announcement { said: datagram, ways, group: self.group });
             }
         }
-        Ok(None)
+        None
     }
 }
 
@@ -150,7 +150,7 @@ mod tests {
     fn heard(announced: &Announced, patience: f64) -> Vec<([u8; 4], Vec<u8>)> {
         let (start, mut all, mut datagram) = (Instant::now(), Vec::new(), vec![0; 65_536]);
         while start.elapsed() < Duration::from_secs_f64(patience) {
-            let Ok(length) = announced.hears[0].recv(&mut datagram) else {
+            let Ok(length) = announced.networks[0].0.recv(&mut datagram) else {
                 std::thread::sleep(Duration::from_millis(5));
                 continue;
             };
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn a_participant_is_announced_first_then_its_endpoints_and_nothing_after_its_farewell() {
         let domain = 54;
-        let announced = Announced::listen(domain).unwrap();
+        let announced = Announced::listen(domain);
         if !announced.can_hear() {
             return println!("SKIPPED: no network that has multicast");
         }

@@ -52,24 +52,21 @@ impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
         let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
-        let deaf = |error: std::io::Error| TransportError::Participant {
-            domain,
-            reason: format!("it cannot hear of itself: {error}"),
-        };
-        let announced = Announced::listen(domain).map_err(deaf)?;
+        let mut announced = Announced::listen(domain);
         let pause = Pause::begin();
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
         // It stops before it announces the participant, and where it hears that, or of others.
         let start = Instant::now();
         let announcement = loop {
             let is_held = pause.wait(FIRST_STOP);
-            let own = announced.own(participant.guid()).map_err(deaf)?;
+            let own = announced.own(participant.guid());
             if own.is_some() || !is_held || !announced.can_hear() || start.elapsed() > ANNOUNCED {
                 break own;
             }
             pause.step();
         };
-        let announcements = announcement.map(Announcements::begin).transpose().map_err(deaf)?;
+        let no_thread = |source| TransportError::System { what: "cannot start a thread", source };
+        let announcements = announcement.map(Announcements::begin).transpose().map_err(no_thread)?;
         let opening = Some(Opening { pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
