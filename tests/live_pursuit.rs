@@ -66,6 +66,7 @@ fn pursue(domain: u32, seed: u64) {
     );
     println!("seed {seed}: median time to conform {ours:.1} s, {theirs:.1} s in lock-step");
     assert_eq!(live.assignment, lockstep.assignment, "who follows whom");
+    assert!(points <= 0.02, "final points differ by {points} m");
     assert!(centres <= 0.02 && turned <= 0.2, "final poses differ by {centres} m, {turned} rad");
     assert!((ours / theirs - 1.0).abs() <= 0.15, "{ours} s live, {theirs} s in lock-step");
     let (figures, seed) = shown.rsplit_once(": ").unwrap();

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, Placed};
+use trench_formation::kinematics::wrap;
 use trench_msgs::Message;
 use trench_msgs::msg::{Assignment, Formation, Goals, LeaderState, RunState};
 use trench_msgs::nav_msgs::Odometry;
@@ -173,12 +174,12 @@ impl Conformed {
 
     /// The largest angle between where a robot looks in both runs, at the end, rad.
     pub(crate) fn turned(&self, other: &Self) -> f64 {
-        self.headings.iter().map(|(robot, heading)| angle(heading - other.headings[robot])).fold(0.0, f64::max)
+        self.headings.iter().map(|(robot, heading)| wrap(heading - other.headings[robot]).abs()).fold(0.0, f64::max)
     }
 
     /// The largest angle between where a robot looks and where its formation does, at the end, rad.
     pub(crate) fn askew(&self) -> f64 {
-        self.headings.values().map(|heading| angle(heading - self.formation)).fold(0.0, f64::max)
+        self.headings.values().map(|heading| wrap(heading - self.formation).abs()).fold(0.0, f64::max)
     }
 
     /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:
@@ -229,12 +230,6 @@ impl Conformed {
         let last = self.at(f64::INFINITY);
         behind.map(|pair| (last[pair[0].0.as_str()].place - last[pair[1].0.as_str()].place).norm()).collect()
     }
-}
-
-/// rad, without sign.
-fn angle(turned: f64) -> f64 {
-    let (sine, cosine) = libm::sincos(turned);
-    libm::atan2(sine, cosine).abs()
 }
 
 fn nanoseconds(time: &trench_msgs::builtin_interfaces::Time) -> i64 {

@@ -34,13 +34,14 @@ impl Tick {
         let (map_from_segment, motion) = self.inputs.goals.frame(acts).ok_or(Hold::NoGoal)?;
         let duration = self.inputs.interval().min(self.settings.period);
         let point = ahead.position() + settings.look_ahead * ahead.heading();
-        let aside = self.face.ahead(at.steady, (point, self.told(settings, ahead, acts)));
+        let told = self.told(settings, ahead, acts);
+        let aside = self.face.ahead(at.steady, (point, told));
         let robot = PointState {
             position: aside.map_or(point, |(aside, _)| point + aside),
-            velocity: self.reference.and_then(|reference| reference.at(acts)).unwrap_or_else(|| {
-                let told = self.told(settings, ahead, acts);
-                aside.map_or(told, |(_, parting)| told + parting)
-            }),
+            velocity: self
+                .reference
+                .and_then(|reference| reference.at(acts))
+                .unwrap_or_else(|| aside.map_or(told, |(_, parting)| told + parting)),
         };
         // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
         let follows = !(member.leader.is_empty() || command.lost);
