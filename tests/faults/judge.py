@@ -54,6 +54,8 @@ class Evidence:
     binaries: Path
     seen: Path
     tap: Path
+    spoken: Path
+    refused: list[str]
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -170,13 +172,17 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
 
 
 def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
-    """What the assignments must say: with `keeps` they stay as they are, without the robot that `quits` the others close up."""
+    """What the assignments must say: with `keeps` they stay as they are, with `joins` they have a robot more, without the robot that `quits`
+    the others close up."""
     began, ended, until = window
     before = bag.assignments.at(began) or {}
     if fault.get("keeps"):
         changed = [made for _, made in bag.assignments.between(began, until) if made != before]
         if not before or changed:
             verdict.problems.append(f"the assignment did not stay: {before} became {changed[:1]}")
+    newcomer = fault.get("joins")
+    if newcomer and (newcomer in before or not any(newcomer in made for _, made in bag.assignments.between(began, until))):
+        verdict.problems.append(f"{newcomer} did not join: {before} became {bag.assignments.at(until)}")
     robot = fault.get("quits")
     if robot is None:
         return
@@ -245,7 +251,7 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, fault: dict)
 
 def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     """What is wrong with the run as a whole."""
-    problems = []
+    problems = list(evidence.refused)
     for robot, series in bag.commands.items():
         # Written so that what is no number is beyond too.
         beyond = [value for value in series.values if not (abs(value[0]) <= LIMITS[0] and abs(value[1]) <= LIMITS[1])]
@@ -259,7 +265,8 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
-    unfounded, basis = wheels.founded(bag, evidence.tap)
+    said = [bag, *(Run(folder, run.get("clocks", False)) for folder in sorted(evidence.spoken.glob("*")))]
+    unfounded, basis = wheels.founded(bag, said, evidence.tap)
     problems += unfounded
     problems += stale(bag, basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]

@@ -84,13 +84,14 @@ def says(command: tuple[float, float], order: Order) -> bool:
     return True
 
 
-def founded(bag: Run, tap: Path) -> tuple[list[str], dict[str, Series]]:
+def founded(bag: Run, everywhere: list[Run], tap: Path) -> tuple[list[str], dict[str, Series]]:
     """Wheels that were told to turn on no command of the robot's own controller that is young enough; and of each robot, over time, the stamp
     of the newest command that what its wheels were told rests on, s.
 
-    When a command was heard by who records says nothing: a link of its own may bring it later than the bridge's.
+    Whether and when a command was heard by who records says nothing: a link of its own may lose it, or bring it later than the bridge's. So
+    there are records of several places.
     """
-    said = {robot: by_stamp(stamps, bag.commands[robot]) for robot, stamps in bag.stamps.items()}
+    said = by_stamp(everywhere)
     problems, basis, told = [], {robot: Series() for robot in said}, 0
     for order in orders(tap):
         robot = f"robot{order.robot}"
@@ -111,9 +112,11 @@ def founded(bag: Run, tap: Path) -> tuple[list[str], dict[str, Series]]:
     return problems[:3] if told else ["nothing was said to wheels"], basis
 
 
-def by_stamp(stamps: Series, commands: Series) -> Series:
-    """A robot's commands over their own time, which is that of the information they rest on."""
-    series = Series()
-    for stamp, command in sorted(zip(stamps.values, commands.values)):
-        series.add(stamp, command)
-    return series
+def by_stamp(everywhere: list[Run]) -> dict[str, Series]:
+    """Each robot's commands over their own time, which is that of the information they rest on."""
+    said = {robot: Series() for bag in everywhere for robot in bag.stamps}
+    for robot, series in said.items():
+        pairs = {pair for bag in everywhere if robot in bag.stamps for pair in zip(bag.stamps[robot].values, bag.commands[robot].values)}
+        for stamp, command in sorted(pairs):
+            series.add(stamp, command)
+    return said
