@@ -248,7 +248,12 @@ impl NodeCore for OverheadLocalizer {
 
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
-            Event::Message { port, source, cdr, .. } => self.message(at, port, source, cdr, sink),
+            Event::Message { port, source, cdr, .. } => {
+                self.message(at, port, source, cdr, sink);
+                if self.report.is_urgent() {
+                    self.report.publish(at, self.tracker.tracks(), &self.stream, sink);
+                }
+            }
             Event::Request { service: SET_CALIBRATION, id, cdr } => {
                 let outcome = self.calibrate(cdr);
                 let (success, message) = (outcome.is_ok(), outcome.unwrap_or_else(|reason| reason));

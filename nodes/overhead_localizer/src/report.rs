@@ -30,6 +30,8 @@ pub(crate) struct Report {
     /// Missed of the last window, of so many.
     missed: [u64; 2],
     rejected_at_window: u64,
+    /// Whether frames began to be dropped since the last publication.
+    is_urgent: bool,
 }
 
 impl Report {
@@ -46,6 +48,7 @@ impl Report {
             rate: 0.0,
             missed: [0, 0],
             rejected_at_window: 0,
+            is_urgent: false,
         }
     }
 
@@ -56,7 +59,13 @@ impl Report {
         if !self.rejected.contains_key(&reason) {
             sink.log(Level::Error, &format!("frame dropped: {reason}"));
         }
+        self.is_urgent |= self.rejected.values().sum::<u64>() == self.rejected_at_window;
         *self.rejected.entry(reason).or_default() += 1;
+    }
+
+    /// Whether something has begun that nobody should hear of only when it is time.
+    pub(crate) fn is_urgent(&self) -> bool {
+        self.is_urgent
     }
 
     /// Of several cameras: how many frames did not come in time.
@@ -95,6 +104,7 @@ impl Report {
 
     /// Publishes the conditions if it is time or one has changed.
     pub(crate) fn publish(&mut self, at: Times, tracks: &[Track], stream: &Stream, sink: &mut dyn Sink) {
+        self.is_urgent = false;
         self.measure_rate(at, stream);
         let rejected: u64 = self.rejected.values().sum();
         let silent = self.last_frame.is_none_or(|last| at.steady.seconds_since(last) > SILENCE);

@@ -33,6 +33,8 @@ pub struct Testbed {
     pub(crate) pictures: VecDeque<Picture>,
     pub(crate) published: u64,
     pub(crate) dropped: u64,
+    /// How many of them were told of.
+    dropped_before: u64,
     contacts: u64,
     last_contact: String,
     health: Health,
@@ -57,6 +59,7 @@ impl Testbed {
             pictures: VecDeque::new(),
             published: 0,
             dropped: 0,
+            dropped_before: 0,
             contacts: 0,
             last_contact: String::new(),
             health: Health::new(resolve_name("~", &context.namespace, &context.name)),
@@ -121,8 +124,12 @@ impl Testbed {
     }
 
     pub(crate) fn diagnose(&mut self) {
-        let condition = if self.dropped == 0 { Condition::Ok } else { Condition::Warn };
-        self.health.set("camera", condition, "exposing");
+        match self.dropped - std::mem::replace(&mut self.dropped_before, self.dropped) {
+            0 => self.health.set("camera", Condition::Ok, "exposing"),
+            late => {
+                self.health.set("camera", Condition::Warn, format!("{late} frames were rendered too late and dropped"))
+            }
+        }
         self.health.value("camera", "published", self.published);
         self.health.value("camera", "too late", self.dropped);
         let condition = if self.contacts == 0 { Condition::Ok } else { Condition::Error };
