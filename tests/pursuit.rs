@@ -1,6 +1,7 @@
 //! Teams in pursuit of a moving target (Figure 1.5), in lock-step: the cores, launch files and honest bed of the live runs.
 //!
-//! `TRENCH_SEEDS` sets how many of twenty random starts the pursuit takes: all in scripts/acceptance, else three, others every day.
+//! `TRENCH_SEEDS` sets how many of twenty random starts the pursuit takes: all in scripts/acceptance, else three, others every day. There are
+//! as many more as are asked for.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 #[expect(dead_code, reason = "the experiments use the rest")]
@@ -15,7 +16,7 @@ use trench_harness::Ending;
 fn seeds() -> Vec<u64> {
     let today = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap().as_secs() / 86_400;
     let count = named_seeds().unwrap_or(3);
-    (0..count).map(|index| 1 + (today * count + index) % 20).collect()
+    (0..count).map(|index| 1 + (today * count + index) % count.max(20)).collect()
 }
 
 fn stands_without_contact(finished: &Finished, what: &str) {
