@@ -16,6 +16,8 @@ use crate::hull::Approach;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Remedy {
     watch: Watch,
+    /// In the frame of an obstacle that pushes the robot along, away from what draws it.
+    drift: Watch,
     state: State,
 }
 
@@ -121,7 +123,37 @@ impl Remedy {
 
     /// The robot rests on purpose: what it was watched for begins anew.
     pub(super) fn pause(&mut self) {
+        self.restart();
+    }
+
+    fn restart(&mut self) {
         self.watch.restart();
+        self.drift.restart();
+    }
+
+    /// Whether a robot that something pushes away, if `repelled`, stays where it is, or before an obstacle (by its index) that drives it
+    /// away from its target.
+    fn is_caught(
+        &mut self,
+        sight: &Sight<'_>,
+        robot: Vector2<f64>,
+        target: Vector2<f64>,
+        (obstacle, repelled): (Option<usize>, bool),
+    ) -> bool {
+        let deviation = (target - robot).norm();
+        let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, repelled);
+        self.is_driven(sight, robot, target, obstacle) || stays
+    }
+
+    /// Whether a robot stays before an obstacle that moves, and drives it away from its target.
+    fn is_driven(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, target: Vector2<f64>, by: Option<usize>) -> bool {
+        let velocity = by.map(|index| sight.around.velocity(index));
+        let Some(velocity) = velocity.filter(|velocity| velocity.dot(&(target - robot)) < 0.0) else {
+            self.drift.restart();
+            return false;
+        };
+        let (time, deviation) = (sight.time(), (target - robot).norm());
+        self.drift.is_caught(&sight.remedies.watch, time, robot - time * velocity, deviation, true)
     }
 
     /// A tick: guards have gone on with their obstacles, and what is gone needs no remedy.
@@ -149,15 +181,15 @@ impl Remedy {
             State::Free => self.choose(sight, robot, drawn),
             State::Guarded { obstacle, guard, sunk } => {
                 *sunk = (*sunk - sight.remedies.rising * sight.step).max(0.0);
-                let seen = sight.find(*obstacle).map_or(robot, |index| sight.seen_by(index, robot));
+                let index = sight.find(*obstacle);
+                let seen = index.map_or(robot, |index| sight.seen_by(index, robot));
                 if !guard.shields(seen) {
                     *self = Self::default();
                 } else if *sunk > 0.0 {
-                    self.watch.restart();
+                    self.restart();
                 } else {
                     // Guards have places of rest of their own.
-                    let deviation = (target - robot).norm();
-                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, true);
+                    held = self.is_caught(sight, robot, target, (index, true));
                 }
             }
             State::Suspended { until, .. } if sight.time() >= *until => {
@@ -181,6 +213,7 @@ impl Remedy {
                 if there || astray || sight.time() >= *until {
                     *self = Self::default();
                 } else {
+                    sight.carry(robot, carrot, way);
                     sight.lead(robot, carrot, way);
                 }
             }
