@@ -57,20 +57,21 @@ fn pursue(domain: u32, seed: u64) {
     let lockstep = drive("pursuit.launch.yaml", &arguments).conformity.finish();
     let whole = [0.0, f64::INFINITY];
     let [ours, theirs] = [&live, &lockstep].map(|run| run.median_time(whole, FORMED));
-    // The law drives a point before the axle. On which side of it the robot comes to rest hangs on how it came there, in lock-step
-    // too: starts 10 um apart end with centres 57 mm apart, and with points 1 mm apart.
-    let (points, centres) = (live.points_apart(&lockstep), live.apart(&lockstep, f64::INFINITY));
+    // The law drives a point before the axle; by which heading the robot comes to rest there hangs on how it came, in lock-step
+    // too. That it then turns the way the formation faces (`face`) makes whole poses the same.
+    let (points, centres, turned) =
+        (live.points_apart(&lockstep), live.apart(&lockstep, f64::INFINITY), live.turned(&lockstep));
     println!(
-        "seed {seed}: the points that the law drives end {points:.4} m from where they do in lock-step, the centres {centres:.4} m"
+        "seed {seed}: poses end {centres:.4} m and {turned:.4} rad from where they do in lock-step, the points that the law drives {points:.4} m"
     );
     println!("seed {seed}: median time to conform {ours:.1} s, {theirs:.1} s in lock-step");
     assert_eq!(live.assignment, lockstep.assignment, "who follows whom");
     assert!(points <= 0.02, "final points differ by {points} m");
+    assert!(centres <= 0.02 && turned <= 0.2, "final poses differ by {centres} m, {turned} rad");
     assert!((ours / theirs - 1.0).abs() <= 0.15, "{ours} s live, {theirs} s in lock-step");
     let (figures, seed) = shown.rsplit_once(": ").unwrap();
     println!(
-        "{figures}; points end within {:.1} mm of lock-step's, centres within {:.1} mm; jitter p99 {:.2} ms: {seed}",
-        points * 1e3,
+        "{figures}; poses end within {:.1} mm and {turned:.2} rad of lock-step's; jitter p99 {:.2} ms: {seed}",
         centres * 1e3,
         jitter * 1e3
     );

@@ -3,8 +3,8 @@ process to another on this host.
 
 usage: transport.py {rclpy,cyclonedds} {source,probe} --bytes N --rate R --count N
 
-The probe prints percentiles of the time from before the message is made to the subscriber's callback. Both stamp with
-CLOCK_MONOTONIC, which all processes of a host share.
+The probe prints percentiles of the time from before the message is made to the subscriber's callback, and how many came a second. Both
+stamp with CLOCK_MONOTONIC, which all processes of a host share.
 """
 
 import argparse
@@ -14,10 +14,12 @@ import sys
 import time
 
 
-def report(nanoseconds: list[int]) -> None:
-    nanoseconds.sort()
+def report(came: list[tuple[int, int]]) -> None:
+    """Of pairs of when a message came and how long it took, ns."""
+    rate = (len(came) - 1) * 1e9 / (came[-1][0] - came[0][0])
+    nanoseconds = sorted(took for _, took in came)
     micro = [nanoseconds[int((len(nanoseconds) - 1) * share)] / 1000 for share in (0.5, 0.99, 1.0)]
-    print("p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us".format(*micro), flush=True)
+    print("p50 {:.1f} us, p99 {:.1f} us, max {:.1f} us, {:.0f} a second".format(*micro, rate), flush=True)
 
 
 def pace(rate: float):
@@ -44,10 +46,11 @@ def with_rclpy(options) -> None:
             message = UInt8MultiArray()
             message.data = array.array("B", struct.pack("<Q", stamp) + body)
             publisher.publish(message)
-    taken: list[int] = []
+    taken: list[tuple[int, int]] = []
 
     def hear(message) -> None:
-        taken.append(time.monotonic_ns() - struct.unpack("<Q", message.data[:8].tobytes())[0])
+        now = time.monotonic_ns()
+        taken.append((now, now - struct.unpack("<Q", message.data[:8].tobytes())[0]))
 
     node.create_subscription(UInt8MultiArray, "/stamps", hear, QoSProfile(depth=16))
     while len(taken) < options.count:
@@ -80,13 +83,13 @@ def with_cyclonedds(options) -> None:
         body = bytes(options.bytes - 8)
         for _ in pace(options.rate):
             writer.write(Stamps(data=struct.pack("<Q", time.monotonic_ns()) + body))
-    taken: list[int] = []
+    taken: list[tuple[int, int]] = []
 
     class Hear(Listener):
         def on_data_available(self, reader) -> None:
             for sample in reader.take(16):
                 now = time.monotonic_ns()
-                taken.append(now - struct.unpack("<Q", bytes(sample.data[:8]))[0])
+                taken.append((now, now - struct.unpack("<Q", bytes(sample.data[:8]))[0]))
 
     _reader = DataReader(participant, topic, qos=qos, listener=Hear())
     while len(taken) < options.count:

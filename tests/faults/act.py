@@ -9,15 +9,18 @@ import time
 from pathlib import Path
 
 import inject
+from changes import Changes
 from hosts import BASE
-from launched import APART, PATIENCE, Launched
+from launched import APART, PATIENCE, ROBOTS, Launched
 
 # s, for which the bed is watched after the launcher's death.
 ALONE = 3.0
 
 
-def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
+def do(fault: dict, launched: Launched, ears: inject.Ears, changes: Changes) -> tuple[float, float]:
     """Whatever the fault says."""
+    if "joins" in fault:
+        return join(fault, launched, changes)
     if "kill" in fault:
         return kill(fault, launched)
     if "dies" in fault:
@@ -25,7 +28,7 @@ def do(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float
     if "double" in fault:
         return double(fault, launched)
     if "pause" in fault:
-        return pause(fault, launched, ears)
+        return pause(fault, launched)
     if "network" in fault:
         return network(fault, launched)
     if "second" in fault:
@@ -140,6 +143,14 @@ def second(fault: dict, launched: Launched) -> tuple[float, float]:
     return began, ended
 
 
+def join(fault: dict, launched: Launched, changes: Changes) -> tuple[float, float]:
+    """The host of a robot that was never there is switched on, and the robot is named among those that take part; over when it does."""
+    began = time.time()
+    launched.switch_on(fault["joins"])
+    changes.ask(robots=ROBOTS)
+    return began, time.time()
+
+
 def serial(fault: dict, launched: Launched) -> tuple[float, float]:
     """The serial line is out of its socket for a while."""
     began = time.time()
@@ -175,15 +186,12 @@ def clock(fault: dict, launched: Launched) -> tuple[float, float]:
     return now, now
 
 
-def pause(fault: dict, launched: Launched, ears: inject.Ears) -> tuple[float, float]:
-    """SIGSTOP for a while, in the middle of which the formation may change its size."""
+def pause(fault: dict, launched: Launched) -> tuple[float, float]:
+    """SIGSTOP for a while."""
     pid = launched.pid_of(fault["pause"])
     watch = Watch(fault, launched, pid, "was stopped")
     began = time.time()
     os.kill(pid, signal.SIGSTOP)
-    if "scale" in fault:
-        time.sleep(0.5 * fault["for"])
-        inject.scale_formation(ears, fault["scale"])
     time.sleep(max(0.0, began + fault["for"] - time.time()))
     os.kill(pid, signal.SIGCONT)
     ended = time.time()

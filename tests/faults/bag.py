@@ -53,11 +53,12 @@ class Run:
         self.clocks = clocks
         self.truth: dict[str, Series] = {}
         self.commands: dict[str, Series] = {}
-        # Stamps of all commands of the robots' own controllers, in the order in which they came, s, and the latest of them up to then.
+        # Stamps of all commands of the robots' own controllers, in the order in which they came, s.
         self.stamps: dict[str, Series] = {}
-        self.basis: dict[str, Series] = {}
         # Of each robot in each assignment: its queue, its rank and whom it follows.
         self.assignments = Series()
+        # How far each robot is from its segment, m, by its own word; infinitely where it has none.
+        self.segments: dict[str, Series] = {}
         # Ages of images that came, s.
         self.images = Series()
         self.goals = Series()
@@ -99,10 +100,10 @@ class Run:
             if message.header.frame_id != f"{parts[0]}/base_link":
                 return
             self.commands.setdefault(parts[0], Series()).add(at, (message.twist.linear.x, message.twist.angular.z))
-            basis = self.basis.setdefault(parts[0], Series())
-            stamp = self._time(message.header.stamp, at)
-            self.stamps.setdefault(parts[0], Series()).add(at, stamp)
-            basis.add(at, max(stamp, basis.values[-1] if basis.values else 0.0))
+            self.stamps.setdefault(parts[0], Series()).add(at, self._time(message.header.stamp, at))
+        elif parts[-1] == "leader_state":
+            distance = message.segment_distance if message.rank > 0 else math.inf
+            self.segments.setdefault(message.robot, Series()).add(self._time(message.header.stamp, at), distance)
         elif topic == "/assignment":
             if message.epoch < FOREIGN_EPOCH:
                 self.assignments.add(at, {member.robot: (member.queue, member.rank, member.leader) for member in message.members})

@@ -6,6 +6,7 @@ FOLDER takes verdicts.json and all that the run leaves. In the ROS domain of the
 """
 
 import os
+import resource
 import shutil
 import sys
 from pathlib import Path
@@ -15,10 +16,11 @@ import inject
 import judge
 import matrix
 import verdict
-from launched import PATIENCE, Launched
+from changes import Changes
+from launched import PATIENCE, ROBOTS, Launched
 
-# How much less important judging is than what others have running, who may be timed.
-NICE = 10
+# How much less important judging is than what others have running, who may be timed; and all the memory that it gets, bytes.
+NICE, MEMORY = 10, 4 << 30
 
 
 def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.Verdict]:
@@ -34,9 +36,14 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
         shutil.rmtree(folder / "launch")
     launched = Launched(run, binaries, folder, seed)
     ears = inject.Ears(launched.log)
-    windows, memory, code = [], [], None
+    windows, memory, code, changes = [], [], None, None
     try:
+        changes = Changes(run, launched)
+        if "late" in run:
+            # Those who are there begin without it.
+            changes.ask(robots=[robot for robot in ROBOTS if robot != run["late"]])
         ears.wait_for_start(PATIENCE)
+        changes.begin(ears.t0)
         # What a process takes to begin with is not what it grows by.
         ears.wait_until(3.0)
         memory.append(launched.memory())
@@ -44,20 +51,23 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
             if "bed" in fault:
                 continue
             ears.wait_until(fault["at"])
-            began, ended = act.do(fault, launched, ears)
+            began, ended = act.do(fault, launched, ears, changes)
             windows.append((fault, began, ended))
         if not any(fault.get("ends") for fault in run["faults"]):
             ears.wait_until(float(run["arguments"]["duration"]) - 1.0)
             memory.append(launched.memory())
         code = launched.wait()
     finally:
+        if changes:
+            changes.end()
         ears.close()
         launched.end()
     os.nice(NICE)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
     evidence = judge.Evidence(
         bag=folder / "bag", log=launched.all_logs(), exit_code=code, memory=memory, alive_after=max(lived, default=None),
-        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap,
+        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
     )
     return judge.judge(run, windows, evidence)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 # Where hosts run and how their nodes reach one another: `dds`, all on one network; `zenoh`, base station and robots in two
 # networks, which a router alone joins; `radio`, all but the bridge on one host, by Zenoh through a router on either.
-BASE, GATE, RADIO = "base", "gate", "radio"
+BASE, GATE, RADIO, ZENOH = "base", "gate", "radio", "zenoh"
 # How the base station's router joins the radio's over a slow link (docs/hosts.md): little between its queues and the wire.
 SLOW = 'transport/link/tx/batch_size=600;connect/endpoints=["tcp/10.77.0.2:7447#so_sndbuf=1"]'
 INTERFACE = "eth0"
@@ -21,7 +21,7 @@ class Hosts:
         self.kind, self.prefix = kind, f"tf{os.getpid()}"
         self.switches: list[subprocess.Popen] = []
         self.of_link: dict[str, subprocess.Popen] = {}
-        self.names = [BASE, RADIO] if kind == RADIO else [BASE, *robots, *([GATE] if kind == "zenoh" else [])]
+        self.names = [BASE, RADIO] if kind == RADIO else [BASE, *robots, *([GATE] if kind == ZENOH else [])]
         try:
             for name in self.names:
                 ip("netns", "add", self.namespace(name))
@@ -29,7 +29,7 @@ class Hosts:
                 # As docs/hosts.md has it for Zenoh; older kernels do not know it.
                 limit = "f=/proc/sys/net/ipv4/tcp_rto_max_ms; [ ! -e $f ] || echo 1000 > $f"
                 subprocess.run([*self.command(name), "sh", "-c", limit], check=True)
-            if kind != "zenoh":
+            if kind != ZENOH:
                 self._network(seed, "10.77.0", INTERFACE, self.names)
             else:
                 self._network(seed, "10.78.0", INTERFACE, [BASE, GATE])
@@ -66,7 +66,7 @@ class Hosts:
         own = {"TRENCH_SHM_PREFIX": f"{self.prefix}{host[:2]}{host[-1]}"}
         if self.kind == RADIO:
             own["RMW_IMPLEMENTATION"] = "rmw_zenoh_cpp"
-        if self.kind == "zenoh":
+        if self.kind == ZENOH:
             network = "10.78.0" if host == BASE else "10.79.0"
             own["RMW_IMPLEMENTATION"] = "rmw_zenoh_cpp"
             gate = f'mode="client";listen/endpoints=[];connect/endpoints=["tcp/{network}.254:7447"]'

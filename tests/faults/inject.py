@@ -335,20 +335,6 @@ def emergency_stop(ears: Ears, seconds: float) -> float:
     return began
 
 
-def scale_formation(ears: Ears, scale: float) -> None:
-    """Somebody wants the formation in another size."""
-    import rclpy
-    from trench_msgs.srv import SetFormation
-
-    client = ears.node.create_client(SetFormation, "/leader_assignment/set_formation")
-    if not client.wait_for_service(timeout_sec=5.0):
-        raise TimeoutError("/leader_assignment/set_formation is not there")
-    answer = client.call_async(SetFormation.Request(scale=scale))
-    rclpy.spin_until_future_complete(ears.node, answer, timeout_sec=5.0)
-    if not answer.result() or not answer.result().success:
-        raise RuntimeError(f"the formation did not change: {answer.result()}")
-
-
 # Each gives when it began, s, wall clock.
 INJECTIONS = {
     function.__name__: function

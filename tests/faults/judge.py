@@ -9,7 +9,7 @@ from pathlib import Path
 
 import wheels
 from bag import NEAR, Run
-from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
+from motion import AGE, allowed, burst, idle, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -28,8 +28,6 @@ LATELY, RESTS = 0.5, 0.005
 LIMITS = (0.31, 5.0)
 # m, between the middles of two robots that touch.
 TOUCH = 0.16
-# s, by which the judge may hear commands later than the bridge, over a link of its own, where the line is tapped: what the bridge did is known there.
-HEARD = 0.15
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
 # s, the longest gap in the bag.
@@ -56,6 +54,8 @@ class Evidence:
     binaries: Path
     seen: Path
     tap: Path
+    spoken: Path
+    refused: list[str]
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -134,7 +134,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if "pause" in fault:
         verdict.problems += burst(bag, ended)
     structure(bag, fault, (began, ended, min(ended + FORMATION, following)), verdict)
-    recover(bag, ended, min(ended + FORMATION, following), verdict, settles=not fault.get("unsettled"))
+    recover(bag, ended, min(ended + FORMATION, following), verdict, fault)
     return verdict
 
 
@@ -172,13 +172,17 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
 
 
 def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
-    """What the assignments must say: with `keeps` they stay as they are, without the robot that `quits` the others close up."""
+    """What the assignments must say: with `keeps` they stay as they are, with `joins` they have a robot more, without the robot that `quits`
+    the others close up."""
     began, ended, until = window
     before = bag.assignments.at(began) or {}
     if fault.get("keeps"):
         changed = [made for _, made in bag.assignments.between(began, until) if made != before]
         if not before or changed:
             verdict.problems.append(f"the assignment did not stay: {before} became {changed[:1]}")
+    newcomer = fault.get("joins")
+    if newcomer and (newcomer in before or not any(newcomer in made for _, made in bag.assignments.between(began, until))):
+        verdict.problems.append(f"{newcomer} did not join: {before} became {bag.assignments.at(until)}")
     robot = fault.get("quits")
     if robot is None:
         return
@@ -211,8 +215,11 @@ def since_when(holds, ended: float, until: float) -> float | None:
     return failed[-1] + 0.05 - ended if failed else 0.0
 
 
-def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: bool) -> None:
-    """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it."""
+def recover(bag: Run, ended: float, until: float, verdict: Verdict, fault: dict) -> None:
+    """When all robots were driven again, and, where there is time to, when the formation stood, for the rest of it.
+
+    A chain behind a moving target stands where each robot is on its segment (`forms: segments`); else at its goal points.
+    """
     robots = sorted(bag.truth)
     until = min(until, max(series.times[-1] for series in bag.truth.values()), bag.stopped or math.inf)
 
@@ -226,22 +233,25 @@ def recover(bag: Run, ended: float, until: float, verdict: Verdict, settles: boo
     verdict.recovered = since_when(lambda at: all(is_driven(robot, at) for robot in robots), ended, until)
     if verdict.recovered is None or verdict.recovered > RECOVERY:
         verdict.problems.append(f"not all robots were driven within {RECOVERY} s of its end")
-    if not settles:
+    if fault.get("unsettled"):
         return
 
+    def from_place(robot: str, at: float) -> float | None:
+        return bag.segments[robot].at(at) if fault.get("forms") == "segments" else bag.distance(robot, at)
+
     def stands(at: float) -> bool:
-        distances = [bag.distance(robot, at) for robot in robots]
+        distances = [from_place(robot, at) for robot in robots]
         return all(distance is not None and distance < NEAR for distance in distances)
 
     verdict.formed = since_when(stands, ended, until)
     if verdict.formed is None:
-        far = {robot: bag.distance(robot, until - 0.1) for robot in robots}
+        far = {robot: from_place(robot, until - 0.1) for robot in robots}
         verdict.problems.append(f"the formation did not stand within {until - ended:.1f} s: {far}")
 
 
 def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     """What is wrong with the run as a whole."""
-    problems = []
+    problems = list(evidence.refused)
     for robot, series in bag.commands.items():
         # Written so that what is no number is beyond too.
         beyond = [value for value in series.values if not (abs(value[0]) <= LIMITS[0] and abs(value[1]) <= LIMITS[1])]
@@ -255,9 +265,10 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         for label in before.keys() & after.keys():
             if after[label] - before[label] > GROWTH:
                 problems.append(f"{label} grew by {(after[label] - before[label]) / 1e6:.1f} MB")
-    if run.get("line"):
-        problems += wheels.unfounded(bag, evidence.tap)
-    problems += stale(bag, Run(evidence.seen).basis if evidence.seen.exists() else bag.basis, HEARD if run.get("line") else FRAME)
+    said = [bag, *(Run(folder, run.get("clocks", False)) for folder in sorted(evidence.spoken.glob("*")))]
+    unfounded, basis = wheels.founded(bag, said, evidence.tap)
+    problems += unfounded
+    problems += stale(bag, basis)
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")

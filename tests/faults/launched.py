@@ -1,6 +1,5 @@
 """A formation as processes, on this host or on several, and the recorder whose bag is judged."""
 
-import json
 import os
 import re
 import shutil
@@ -15,7 +14,7 @@ from pathlib import Path
 
 import yaml
 
-from hosts import BASE, GATE, RADIO, SLOW, Hosts
+from hosts import BASE, GATE, RADIO, SLOW, ZENOH, Hosts
 
 ROOT = Path(__file__).resolve().parents[2]
 # Nothing that a run waits for takes longer, s.
@@ -100,12 +99,12 @@ class Launched:
         self.hosts = Hosts(run["hosts"], ROBOTS, seed) if "hosts" in run else None
         self.launchers: dict[str, subprocess.Popen] = {}
         self.recorder, self.line, self.disk = None, None, None
-        # What runs beside the launch, and what somebody on another host saw.
-        self.beside: list[subprocess.Popen] = []
+        # What runs beside the launch, by name, and what somebody on another host saw.
+        self.named: dict[str, subprocess.Popen] = {}
         self.seen = folder / "seen"
         self.clocks = run.get("clocks", False)
         self.own_bag = folder / "own-bag"
-        self.tap = folder / "line.tap"
+        self.tap, self.spoken = folder / "line.tap", folder / "spoken"
         try:
             self._start(run, seed)
         except BaseException:
@@ -113,22 +112,21 @@ class Launched:
             raise
 
     def _start(self, run: dict, seed: int) -> None:
-        if self.hosts and self.hosts.kind == "zenoh":
+        if self.hosts and self.hosts.kind == ZENOH:
             self.launch(GATE, "router")
         if self.hosts and self.hosts.kind == RADIO:
-            self.beside.append(self.start(RADIO, "trench", "router"))
+            far = self.named["far router"] = self.start(RADIO, "trench", "router")
             # A router that finds nobody tries again later and later.
-            wait_for(lambda: listens(self.beside[0].pid, ROUTER))
-            self.beside.append(self.start(BASE, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW}))
-            wait_for(lambda: joins(self.beside[1].pid, ROUTER))
+            wait_for(lambda: listens(far.pid, ROUTER))
+            near = self.named["near router"] = self.start(BASE, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW})
+            wait_for(lambda: joins(near.pid, ROUTER))
             # Routers are there before the nodes, and know each other: what is declared while they still get to know each other may
             # stay unknown to the other one (docs/hosts.md).
             time.sleep(ACQUAINTED)
-        bed = [fault["bed"] for fault in run["faults"] if "bed" in fault]
+        bed = [*run.get("bed", []), *(fault["bed"] for fault in run["faults"] if "bed" in fault)]
         faults = self.folder / "faults.yaml"
         faults.write_text(yaml.safe_dump({"faults": bed}))
-        if run.get("line"):
-            self.line = Line(self.folder / "port", self.folder / "plug", self.tap)
+        self.line = Line(self.folder / "port", self.folder / "plug", self.tap)
         if self.clocks:
             self._make_clocks()
         if "disk" in run:
@@ -142,7 +140,7 @@ class Launched:
             "seed": str(seed),
             **({"faults": str(faults)} if bed else {}),
             **({"key": str(self._make_key())} if run.get("key") else {}),
-            **({"bridge_port": str(self.folder / "plug")} if self.line else {}),
+            "bridge_port": str(self.folder / "plug"),
             **({} if not self.hosts else {"bridge": "false"} if self.hosts.kind == RADIO else {"controllers": "false"}),
         }
         # Over a slow link nobody records what robots report.
@@ -158,28 +156,45 @@ class Launched:
         self.launch(BASE, run["launch"], **arguments)
         if self.hosts and self.hosts.kind == RADIO:
             self.launch(
-                RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "port"), read_best_effort='["*"]'
+                RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "plug"), read_best_effort='["*"]'
             )
             self._look()
         elif self.hosts:
             for robot in ROBOTS:
-                self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
+                if robot != run.get("late"):
+                    self.switch_on(robot)
+        if "view" in run:
+            self.named["view"] = self.start(BASE, "trench", "view", "--port", "0")
+            self._camera()
+
+    def switch_on(self, robot: str) -> None:
+        """A robot's own host. Where a router is killed, what its controller says is recorded there, too: on the way to the base station it may
+        be lost for who records, and come to the bridge. (By DDS it is said again.)"""
+        if self.hosts.kind == ZENOH:
+            self.named[f"recorder of {robot}"] = self.start(
+                robot, "bag_recorder", "--ros-args", "-r", "__node:=recorder", "-r", f"__ns:=/{robot}", "-p", f"output:={self.spoken / robot}",
+                "-p", f"topics:=['/{robot}/cmd_vel:geometry_msgs/msg/TwistStamped']", true_clock=True,
+            )
+        self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
 
     def _look(self) -> None:
-        """A small camera on the base station, and somebody on the radio's host who records it, and what commands come there."""
+        """A small camera on the base station, and somebody on the radio's host who records it."""
+        self._camera()
+        self.named["viewer"] = self.start(
+            RADIO, "bag_recorder", "--ros-args", "-r", "__node:=viewer", "-p", f"output:={self.seen}",
+            "-p", f"topics:=['{IMAGES}:sensor_msgs/msg/Image']", "-p", 'read_best_effort:=["*"]',
+        )
+
+    def _camera(self) -> None:
+        """A camera besides the one that robots are localized by."""
         pictures = self.folder / "pictures"
         pictures.mkdir()
         (pictures / "floor.png").write_bytes(picture(*PICTURE))
-        self.beside.append(self.start(
+        self.named["camera"] = self.start(
             BASE, "overhead_camera", "--ros-args", "-r", "__node:=side_camera", "-r", f"/overhead/image_raw:={IMAGES}",
             "-p", "source:=folder", "-p", f"path:={pictures}", "-p", "rate:=10.0", "-p", "repeat:=true",
             "-p", f"publish_over_network:=[{IMAGES}]", "-p", "network_rate:=25000.0",
-        ))
-        topics = [f"{IMAGES}:sensor_msgs/msg/Image", *(f"/{robot}/cmd_vel:geometry_msgs/msg/TwistStamped" for robot in ROBOTS)]
-        self.beside.append(self.start(
-            RADIO, "bag_recorder", "--ros-args", "-r", "__node:=viewer", "-p", f"output:={self.seen}",
-            "-p", f"topics:=[{', '.join(map(json.dumps, topics))}]", "-p", 'read_best_effort:=["*"]',
-        ))
+        )
 
     def launch(self, host: str, file: str, **arguments: str) -> None:
         """Starts a launch file on a host."""
@@ -219,9 +234,20 @@ class Launched:
         self, host: str, program: str, *arguments: str, true_clock: bool = False, variables: dict[str, str] | None = None
     ) -> subprocess.Popen:
         """Starts a program of ours on a host."""
-        command = [*(self.hosts.command(host) if self.hosts else []), str(self.binaries / program), *arguments]
+        command = [*self._there(host), str(self.binaries / program), *arguments]
         with open(self.folder / f"{host}-{program}.log", "a", encoding="utf-8") as log:
             return subprocess.Popen(command, env=self.environment(host, true_clock) | (variables or {}), stdout=log, stderr=log, cwd=ROOT)
+
+    def run(self, host: str, command: list[str], name: str) -> subprocess.Popen:
+        """Starts a program of the tests' on a host, which is spoken to line by line."""
+        with open(self.folder / f"{host}-{name}.log", "w", encoding="utf-8") as log:
+            return subprocess.Popen(
+                [*self._there(host), *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True
+            )
+
+    def _there(self, host: str) -> list[str]:
+        """What stands in front of a command that runs on a host."""
+        return self.hosts.command(host) if self.hosts else []
 
     def shared_memory(self) -> str:
         """With what the names of its shared memory begin."""
@@ -248,6 +274,8 @@ class Launched:
         """Of `overhead_localizer`, `robot2/formation_controller` or `router`."""
         if victim == "launcher":
             return self.launchers[BASE].pid
+        if victim in self.named:
+            return self.named[victim].pid
         *namespace, program = victim.split("/")
         for label, pid in self.processes().items():
             # What is not a program of its own is known by its name in the launch file.
@@ -281,6 +309,8 @@ class Launched:
                 pass
         for process in [*self.launchers.values(), self.recorder]:
             process.wait(PATIENCE)
+        # The line is ours: two between the same ends would feed each other.
+        self.line.close()
 
     def wait(self) -> int:
         """Waits for the base station's launch to end; gives its exit code."""
@@ -293,7 +323,7 @@ class Launched:
 
     def end(self) -> None:
         """Ends whatever still runs, and forgets what it shared."""
-        left = [*self.launchers.values(), *self.beside, *([self.recorder] if self.recorder else [])]
+        left = [*self.launchers.values(), *self.named.values(), *([self.recorder] if self.recorder else [])]
         for process in left:
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)

@@ -87,16 +87,13 @@ def idle(bag: Run, began: float, until: float) -> float:
     return max(((span.following or until) - span.first for span in spans(bag, began, until) if not span.moving), default=0.0)
 
 
-def stale(bag: Run, heard: dict[str, Series], later: float = FRAME) -> list[str]:
-    """Robots that move although the newest information in their commands, as they were heard, is too old, and braking would be over.
-
-    Who records may hear a command so much later than the bridge does.
-    """
+def stale(bag: Run, basis: dict[str, Series]) -> list[str]:
+    """Robots that move although the newest information that their wheels were told to turn on is too old, and braking would be over."""
     problems = []
     for robot, series in bag.truth.items():
-        basis = heard.get(robot, Series())
+        known = basis.get(robot, Series())
         for at, state in series.between(bag.t0 or math.inf, bag.stopped or math.inf):
-            newest = basis.at(at + later) or 0.0
+            newest = known.at(at + FRAME) or 0.0
             if not moves(state) or at - newest <= AGE + FRAME:
                 continue
             latest = newest + AGE + FRAME

@@ -1,8 +1,8 @@
 """The command line of the fault matrix (scripts/faults, which sets the environment up): what to run, and the table of it."""
 
 import argparse
-import datetime
 import sys
+import time
 from pathlib import Path
 
 import matrix
@@ -12,8 +12,8 @@ from company import Company, Job
 from launched import ROOT
 
 RESULTS = ROOT / "run" / "faults"
-# Seeds that the sample takes by turns.
-SEEDS = 3
+# Seeds that the sample takes by turns, how many runs it takes, and how long a turn is, s.
+SEEDS, SAMPLE, TURN = 3, 2, 3600
 
 
 def passed(run: dict, seed: int, since: float) -> bool:
@@ -36,12 +36,16 @@ def seeds(text: str) -> list[int]:
     return [int(seed) for seed in text.split(",") if seed] if "," in text else list(range(1, int(text) + 1))
 
 
+def sampled(runs: list[dict], turn: int) -> list[Job]:
+    """The next of all runs by turns, and with all of them the next seed."""
+    places = [SAMPLE * turn + place for place in range(SAMPLE)]
+    return [Job(runs[place % len(runs)], 1 + place // len(runs) % SEEDS) for place in places]
+
+
 def chosen(runs: list[dict], arguments: argparse.Namespace) -> list[Job]:
     """The runs that the command line asks for, each with a seed."""
     if arguments.sample:
-        day = datetime.date.today().toordinal()
-        sample = [run for run in runs if run.get("sample")]
-        return [Job(sample[day % len(sample)], 1 + day // len(sample) % SEEDS)]
+        return sampled([run for run in runs if not run.get("alone")], int(time.time()) // TURN)
     picked = []
     for name in arguments.names:
         found = [run for run in runs if name == run["name"] or any(name == fault["name"] for fault in run["faults"])]

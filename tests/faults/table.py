@@ -15,9 +15,11 @@ the worst of all seeds that were run:
 
 - no contact; no robot drives or turns on information older than 0.25 s, a frame, and what braking takes from its speed of then; the
   victim ends and no other process before the run is over, with whatever exit code; commands of the robots' own controllers finite and within
-  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second. Where the serial
-  line is tapped (`line` in the matrix), each speed that is sent to wheels is one that the robot's own controller commanded on information of the
-  last 0.25 s: no burst of old commands, and nobody else's;
+  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second. Each speed
+  that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
+  old commands, and nobody else's;
+- in a dozen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
+  against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
   died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned, which moved before, stand from 0.25 s of old information (0.5 s without goals or
@@ -78,11 +80,16 @@ def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date
     says = worst(met, "diagnosed") + by if "unnamed" not in fault else f"none: {fault['unnamed']}"
     failed = [told for told in met if told["problems"]]
     notes = [fault["note"]] if "note" in fault else []
-    notes += [f"beside another run: {'; '.join(told['problems'])}; alone it is as said here" for told in failed_beside[:1]]
-    result = f"**fails**: {'; '.join(failed[0]['problems'])}" if failed else "pass"
+    notes += [f"beside other runs {len(failed_beside)} failed: {briefly(told['problems'])}; alone it is as said here" for told in failed_beside[:1]]
+    result = f"**fails**: {briefly(failed[0]['problems'])}" if failed else "pass"
     result += f" ({'; '.join(notes)})" if notes else ""
     cells = [fault["name"], run["name"], says, *(worst(met, key) for key in ("stood", "rested", "recovered", "formed"))]
     return f"| {' | '.join(cells)} | {result} | {len(met) - len(failed)} of {len(met)} | {date} |"
+
+
+def briefly(problems: list[str]) -> str:
+    """The first of them."""
+    return problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
 
 
 def worst(met: list[dict], key: str) -> str:

@@ -84,27 +84,39 @@ def says(command: tuple[float, float], order: Order) -> bool:
     return True
 
 
-def unfounded(bag: Run, tap: Path) -> list[str]:
-    """Wheels that were told to turn on no command of the robot's own controller that is young enough."""
-    problems, told = [], 0
+def founded(bag: Run, everywhere: list[Run], tap: Path) -> tuple[list[str], dict[str, Series]]:
+    """Wheels that were told to turn on no command of the robot's own controller that is young enough; and of each robot, over time, the stamp
+    of the newest command that what its wheels were told rests on, s.
+
+    Whether and when a command was heard by who records says nothing: a link of its own may lose it, or bring it later than the bridge's. So
+    there are records of several places.
+    """
+    said = by_stamp(everywhere)
+    problems, basis, told = [], {robot: Series() for robot in said}, 0
     for order in orders(tap):
         robot = f"robot{order.robot}"
         if (order.left, order.right) == (0.0, 0.0) or not (bag.t0 or math.inf) <= order.at <= (bag.stopped or math.inf):
             continue
         told += 1
+        young = said.get(robot, Series()).between(order.at - AGE - FRAME, order.at)
+        newest = max((stamp for stamp, command in young if says(command, order)), default=None)
+        if newest is not None:
+            basis[robot].add(order.at, newest)
         if max(abs(order.left), abs(order.right)) > FASTEST + CLOSE:
             problems.append(f"wheels of {robot} were told {order.left:.3f} and {order.right:.3f} m/s")
-        elif not any(says(command, order) for command in young(bag, robot, order.at)):
+        elif newest is None:
             problems.append(
                 f"wheels of {robot} were told {order.left:.4f} and {order.right:.4f} m/s at {order.at - bag.t0:.3f} s, which no command says that rests "
                 f"on less than {AGE} s"
             )
-    return problems[:3] if told else ["nothing was said to wheels"]
+    return problems[:3] if told else ["nothing was said to wheels"], basis
 
 
-def young(bag: Run, robot: str, at: float) -> list[tuple[float, float]]:
-    """The commands that a bridge may obey then."""
-    stamps, commands = bag.stamps.get(robot, Series()), bag.commands.get(robot, Series())
-    # None is heard sooner than it is stamped, and who records may hear it later than the bridge.
-    heard = zip(stamps.between(at - AGE, at + 0.5), commands.between(at - AGE, at + 0.5))
-    return [command for (_, stamp), (_, command) in heard if at - AGE - FRAME <= stamp <= at]
+def by_stamp(everywhere: list[Run]) -> dict[str, Series]:
+    """Each robot's commands over their own time, which is that of the information they rest on."""
+    said = {robot: Series() for bag in everywhere for robot in bag.stamps}
+    for robot, series in said.items():
+        pairs = {pair for bag in everywhere if robot in bag.stamps for pair in zip(bag.stamps[robot].values, bag.commands[robot].values)}
+        for stamp, command in sorted(pairs):
+            series.add(stamp, command)
+    return said

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, Placed};
+use trench_formation::kinematics::wrap;
 use trench_msgs::Message;
 use trench_msgs::msg::{Assignment, Formation, Goals, LeaderState, RunState};
 use trench_msgs::nav_msgs::Odometry;
@@ -53,6 +54,8 @@ pub(crate) struct Conformed {
     pub(crate) points: BTreeMap<String, [f64; 2]>,
     /// Where each robot looks at the end, rad.
     pub(crate) headings: BTreeMap<String, f64>,
+    /// Where its formation does, rad.
+    formation: f64,
     /// Robot, queue and rank, in the order of the last assignment.
     pub(crate) assignment: Vec<(String, u32, u32)>,
     pub(crate) hindrance: Hindrance,
@@ -119,6 +122,7 @@ impl Conformity {
                 conformed.robots.insert(robot.clone(), way);
             }
         }
+        conformed.formation = self.frames.last_key_value().unwrap().1[2];
         let (_, last) = self.assignments.last_key_value().unwrap();
         let member = |member: &trench_msgs::msg::Member| (member.robot.clone(), member.queue, member.rank);
         conformed.assignment = last.members.iter().map(member).collect();
@@ -170,11 +174,12 @@ impl Conformed {
 
     /// The largest angle between where a robot looks in both runs, at the end, rad.
     pub(crate) fn turned(&self, other: &Self) -> f64 {
-        let turned = |(robot, heading): (&String, &f64)| {
-            let (sine, cosine) = libm::sincos(heading - other.headings[robot]);
-            libm::atan2(sine, cosine).abs()
-        };
-        self.headings.iter().map(turned).fold(0.0, f64::max)
+        self.headings.iter().map(|(robot, heading)| wrap(heading - other.headings[robot]).abs()).fold(0.0, f64::max)
+    }
+
+    /// The largest angle between where a robot looks and where its formation does, at the end, rad.
+    pub(crate) fn askew(&self) -> f64 {
+        self.headings.values().map(|heading| wrap(heading - self.formation).abs()).fold(0.0, f64::max)
     }
 
     /// How long it took each robot from `since` until it was within `bound` of its segment and stayed there until `until`, s:

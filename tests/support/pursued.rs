@@ -11,6 +11,9 @@ const PATIENCE: f64 = 15.0;
 /// s: when the target sets out (`target.depart`).
 const DEPARTURE: f64 = 20.0;
 
+/// rad: how well robots at rest face as their formation does (`face`), which looks where the target went.
+const FACING: f64 = 0.25;
+
 /// How many obstacles the field has (config/obstacles/pursuit.yaml).
 const OBSTACLES: usize = 7;
 
@@ -36,10 +39,12 @@ pub(crate) fn judge(conformed: &Conformed, what: &str) -> String {
     }
     let [free, back] = conformed.recoveries(FORMED, PATIENCE);
     assert!(conformed.at_the_end() <= FORMED, "{what}: {} m: lost or trapped", conformed.at_the_end());
+    let askew = conformed.askew();
+    assert!(askew <= FACING, "{what}: a robot looks {askew} rad past the way of the formation");
     assert_eq!(spacings.len(), 6, "{what}: two queues of four");
     assert!(least >= NEUTRAL[0] && most <= NEUTRAL[1], "{what}: {spacings:?} m apart");
     format!(
-        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {back} of {free} times a robot was back in time after its own last obstacle; {least:.3} to {most:.3} m apart: {what}",
+        "worst at the end {:.4} m, formed {}; the field hindered until {field:.1} s; {back} of {free} times a robot was back in time after its own last obstacle; {least:.3} to {most:.3} m apart, within {askew:.2} rad of the formation's way: {what}",
         conformed.at_the_end(),
         formed.each_ref().map(told).join(", "),
     )

@@ -1,5 +1,6 @@
 //! Measures the way from one core to another on this host: start it twice, first with `-p role:=probe`, then with
-//! `-p role:=source`. The probe prints percentiles of the time from the source's wake-up to the probe's core.
+//! `-p role:=source`. The probe prints percentiles of the time from the source's wake-up to the probe's core, and how many came a second:
+//! with a `rate` beyond what is possible, how many can.
 
 use std::process::ExitCode;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
@@ -27,7 +28,7 @@ fn parameters() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::integer("bytes", 12, "length of a message: a stamp and zeros")
             .range(12.0, 1.0e7)
             .read_only(),
-        ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e5).read_only(),
+        ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e7).read_only(),
         ParameterDescriptor::integer(
             "skip",
             0,
@@ -65,6 +66,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         skip: parameters.usize("skip")?,
         count: parameters.usize("count")?,
         nanoseconds: Vec::new(),
+        first: None,
     }))
 }
 
@@ -76,6 +78,8 @@ struct Latency {
     skip: usize,
     count: usize,
     nanoseconds: Vec<u64>,
+    /// When the first that is measured came.
+    first: Option<Steady>,
 }
 
 impl Latency {
@@ -97,11 +101,14 @@ impl Latency {
             self.skip -= 1;
             return;
         }
+        let first = *self.first.get_or_insert(at.steady);
         self.nanoseconds.push(at.steady.0.saturating_sub(stamp.data));
         if self.nanoseconds.len() == self.count {
             self.nanoseconds.sort_unstable();
             let percentile = |share: usize| self.nanoseconds[(self.count - 1) * share / 1000] as f64 * 1e-3;
-            println!("p50 {:.0} us, p99 {:.0} us, max {:.0} us", percentile(500), percentile(990), percentile(1000));
+            let [p50, p99, max] = [500, 990, 1000].map(percentile);
+            let rate = (self.count - 1) as f64 / at.steady.seconds_since(first);
+            println!("p50 {p50:.0} us, p99 {p99:.0} us, max {max:.0} us, {rate:.0} a second");
             sink.exit(0);
         }
     }

@@ -67,20 +67,26 @@ fn pace(arguments: &Arguments, mut send: impl FnMut() -> Anything) -> Anything {
 struct Taken {
     nanoseconds: Vec<u64>,
     count: usize,
+    /// When the first came, ns.
+    first: Option<u64>,
 }
 
 impl Taken {
     fn new(arguments: &Arguments) -> Self {
-        Self { nanoseconds: Vec::new(), count: arguments.count }
+        Self { nanoseconds: Vec::new(), count: arguments.count, first: None }
     }
 
     fn take(&mut self, message: &[u8]) {
         let stamp = message.first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
-        self.nanoseconds.push(now().saturating_sub(stamp));
+        let now = now();
+        let first = *self.first.get_or_insert(now);
+        self.nanoseconds.push(now.saturating_sub(stamp));
         if self.nanoseconds.len() == self.count {
             self.nanoseconds.sort_unstable();
             let percentile = |share: usize| self.nanoseconds[(self.count - 1) * share / 1000] as f64 * 1e-3;
-            println!("p50 {:.1} us, p99 {:.1} us, max {:.1} us", percentile(500), percentile(990), percentile(1000));
+            let [p50, p99, max] = [500, 990, 1000].map(percentile);
+            let rate = (self.count - 1) as f64 * 1e9 / (now - first) as f64;
+            println!("p50 {p50:.1} us, p99 {p99:.1} us, max {max:.1} us, {rate:.0} a second");
             std::process::exit(0);
         }
     }

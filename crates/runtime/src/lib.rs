@@ -12,6 +12,7 @@
 mod checkpoint;
 mod clock;
 mod exit;
+mod found;
 mod help;
 mod journals;
 mod latency_request;

@@ -1,6 +1,7 @@
 //! The event loop: one thread for all cores of a process.
 
 use crate::clock::steady_now;
+use crate::found::Found;
 use crate::latency_request::LatencyRequest;
 use crate::node::{Node, Wake};
 use crate::priority::{take_turn, threads_wait_turn};
@@ -63,6 +64,7 @@ pub(crate) struct Process {
     /// Lives as long as the endpoints of the nodes.
     pub(crate) network: Box<dyn Network>,
     host: Host,
+    pub(crate) found: Found,
 }
 
 impl Process {
@@ -90,6 +92,7 @@ impl Process {
             nodes: Vec::new(),
             network,
             host,
+            found: Found::default(),
         })
     }
 
@@ -181,24 +184,8 @@ impl Process {
                 node.graph_changed(&change);
             }
             if let GraphChange::Writer { topic, type_name, type_hash, qos } = &change {
-                self.discover(Discovered { topic, type_name, type_hash, qos: *qos });
+                self.discover(Discovered { topic, type_name, type_hash, qos: *qos }, steady_now());
             }
-        }
-    }
-
-    /// Shows the nodes a topic that somebody writes.
-    fn discover(&mut self, topic: Discovered<'_>) {
-        let mut nodes = std::mem::take(&mut self.nodes);
-        let mut is_new = false;
-        for (index, node) in nodes.iter_mut().enumerate() {
-            match node.discover(topic, index, &mut self.connections()) {
-                Ok(wanted) => is_new |= wanted,
-                Err(error) => node.warn(&error.to_string()),
-            }
-        }
-        self.nodes = nodes;
-        if is_new && let Err(error) = self.network.announce() {
-            self.nodes.iter_mut().for_each(|node| node.warn(&error.to_string()));
         }
     }
 
@@ -212,6 +199,7 @@ impl Process {
             self.topics.take_waiting(now, &mut self.nodes)?;
         }
         self.keep_awake(now, at_leisure);
+        self.open_found(now);
         for node in &mut self.nodes {
             node.tick(now);
         }
@@ -221,7 +209,9 @@ impl Process {
             next = next.into_iter().chain(node.next_tick()).chain(flush).min();
         }
         let sleep = self.awake.as_ref().and_then(LatencyRequest::held).map(|(_, until)| until);
-        self.timer.set(next.into_iter().chain(self.topics.next_tick()).chain(self.leisure).chain(sleep).min())
+        let look = self.found.next_look(now);
+        self.timer
+            .set(next.into_iter().chain(look).chain(self.topics.next_tick()).chain(self.leisure).chain(sleep).min())
     }
 
     /// From shortly before what comes at regular times until all of it has come, processors do not sleep: one takes longer to

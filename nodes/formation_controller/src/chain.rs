@@ -77,6 +77,7 @@ impl Tick {
         command.hold = Some(hold);
         Ok(Wanted {
             twist: self.twist(settings, ahead, 0.5 * (robot.velocity + end), duration),
+            rests: false,
             drawn: None,
             place: None,
             error: None,

@@ -11,6 +11,7 @@
 //! | monitor | `monitor`, `trench_formation::stability::Balance` | A.10, A.12, A.18, chapter 8 |
 //! | team link | `team_link`, `recovery` | Remarks 6.2.1, 8.4.1 |
 //! | motors | `trench_formation::kinematics::{saturate, Ramp}` | 4.5.2, 4.6.3 |
+//! | facing as the formation does, at rest | `face`, `trench_formation::kinematics::Facing` | docs/decisions/0013-headings.md |
 //! | a turn on the spot while nobody knows which robot it is | `identify` | docs/decisions/0010-identities.md |
 //! | safety | `trench_formation::safety` | invariant 8 of docs/ARCHITECTURE.md |
 
@@ -18,6 +19,7 @@ mod chain;
 mod core;
 mod deviation;
 mod dynamic;
+mod face;
 mod following;
 mod hold;
 mod identify;

@@ -15,7 +15,7 @@ impl Tick {
         let state = inputs.robot(&settings.robot);
         let position = state.map_or_else(Vector2::zeros, |state| pose_of(state).position());
         let velocity = state.map_or_else(Vector2::zeros, |state| state.v * pose_of(state).heading());
-        let (steered, steered_velocity) = self.steered_point(command).unwrap_or((position, velocity));
+        let (steered, steered_velocity) = self.steered_point(at.steady, command).unwrap_or((position, velocity));
         let wanted = command.wanted;
         let mut message = LeaderState {
             header: Header { stamp: command.exposure.into(), frame_id: MAP.to_owned() },

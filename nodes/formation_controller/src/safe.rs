@@ -37,7 +37,9 @@ impl Tick {
         neighbours.extend(self.unnamed());
         let hulls = self.inputs.obstacles.as_ref().map(|heard| heard.message.at(acts));
         let pose = pose_of(state);
-        let obstacles = hulls.as_ref().map_or_else(Vec::new, |hulls| hulls.bodies(pose.position()));
+        let obstacles = hulls
+            .as_ref()
+            .map_or_else(Vec::new, |hulls| hulls.bodies(pose.position(), 2.0 * self.settings.body_radius));
         let scene = Scene { neighbours: &neighbours, obstacles: &obstacles, field: &self.settings.field };
         let now = Twist { v: state.v, omega: state.omega };
         // A law that goes by potentials is led round, not across: it keeps to the side that it took.

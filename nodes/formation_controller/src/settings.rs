@@ -2,6 +2,7 @@
 
 use crate::Law;
 use crate::dynamic::{self, DynamicSettings, check_damping};
+use crate::face::Faces;
 use crate::monitor::{self, MonitorSettings};
 use std::sync::Arc;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
@@ -45,6 +46,8 @@ pub(crate) struct Settings {
     pub(crate) body_radius: f64,
     pub(crate) field: Vec<Vector2<f64>>,
     pub(crate) stamped: bool,
+    /// When the robot turns the way the formation faces.
+    pub(crate) faces: Faces,
     pub(crate) monitor: MonitorSettings,
     /// s, between two pictures; 0: none.
     pub(crate) picture_period: f64,
@@ -115,6 +118,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         ),
         P::double("markers.period", 0.4, "s, between two pictures on /markers under dynamic laws; 0: none")
             .range(0.0, 60.0),
+        P::string(
+            "face",
+            "anywhere",
+            "which way a robot at rest faces: anywhere; formation: as that does, once it rests, too; arrived: so, if it has moved before",
+        ),
         P::bool("stamped", true, "send geometry_msgs/TwistStamped; false: Twist").read_only(),
     ];
     all.extend(dynamic::descriptors());
@@ -123,6 +131,11 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
 }
 
 impl Settings {
+    /// m, from the axle forward to the point that the law drives: 0 under the laws of chapter 4.
+    pub(crate) fn look_ahead(&self) -> f64 {
+        self.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead)
+    }
+
     pub(crate) fn read(parameters: &Parameters, namespace: &str) -> Result<Self, ConfigError> {
         let double = |name: &str| parameters.f64(name);
         let robot = match parameters.str("robot")? {
@@ -165,6 +178,7 @@ impl Settings {
             body_radius: double("body.radius")?,
             field: field(parameters)?,
             stamped: parameters.bool("stamped")?,
+            faces: faces(parameters)?,
             monitor: MonitorSettings::read(parameters)?,
             picture_period: double("markers.period")?,
         })
@@ -203,6 +217,15 @@ fn by_radio(parameters: &Parameters) -> Result<bool, ConfigError> {
         "radio" => Ok(true),
         "network" => Ok(false),
         _ => Err(parameters.error("team_link", "is no team link", "write radio or network")),
+    }
+}
+
+fn faces(parameters: &Parameters) -> Result<Faces, ConfigError> {
+    match parameters.str("face")? {
+        "anywhere" => Ok(Faces::Never),
+        "formation" => Ok(Faces::AtRest),
+        "arrived" => Ok(Faces::Arrived),
+        _ => Err(parameters.error("face", "says no way to face", "write anywhere, formation or arrived")),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::hold::Hold;
 use crate::markers::Picture;
 use crate::monitor::Driving;
 use crate::tick::{Command, Tick, Wanted};
-use trench_core::{RosTime, Times};
+use trench_core::{RosTime, Steady, Times};
 use trench_formation::Vector2;
 use trench_formation::agent::Surroundings;
 use trench_formation::kinematics::{PointState, Pose, Twist, twist_of_hand};
@@ -33,12 +33,15 @@ impl Tick {
         let member = self.inputs.member(&self.settings.robot).ok_or(Hold::NoPlace)?.clone();
         let (map_from_segment, motion) = self.inputs.goals.frame(acts).ok_or(Hold::NoGoal)?;
         let duration = self.inputs.interval().min(self.settings.period);
+        let point = ahead.position() + settings.look_ahead * ahead.heading();
+        let told = self.told(settings, ahead, acts);
+        let aside = self.face.ahead(at.steady, (point, told));
         let robot = PointState {
-            position: ahead.position() + settings.look_ahead * ahead.heading(),
+            position: aside.map_or(point, |(aside, _)| point + aside),
             velocity: self
                 .reference
                 .and_then(|reference| reference.at(acts))
-                .unwrap_or_else(|| self.told(settings, ahead, acts)),
+                .unwrap_or_else(|| aside.map_or(told, |(_, parting)| told + parting)),
         };
         // Who follows nobody is drawn to its goal point as the chain leader is (Remark 8.4.1).
         let follows = !(member.leader.is_empty() || command.lost);
@@ -110,9 +113,11 @@ impl Tick {
             .zone
             .zip(chain.leader)
             .map(|(zone, leader)| (zone, (leader.leader.state.position - robot.position).norm()));
+        let mean = driven.mean_velocity;
         let deviation = Some(action.deviation).filter(|deviation| deviation.is_finite());
         Ok(Wanted {
-            twist: self.twist(settings, ahead, driven.mean_velocity, duration),
+            twist: self.twist(settings, ahead, aside.map_or(mean, |(_, parting)| mean - parting), duration),
+            rests: mean.norm() < settings.rest_speed,
             drawn: action.attraction,
             place: action.place.map(|place| map_from_segment.inverse_transform_point(&place.into()).coords),
             error,
@@ -124,7 +129,8 @@ impl Tick {
             acceleration: driven.mean_acceleration,
             detour: action.attraction.filter(|_| settings.detours),
             pace: settings.pace(&action, chain.leader.is_some()),
-            watched: Some(watched),
+            // Of a robot that catches up with its law there is nothing to watch.
+            watched: aside.is_none().then_some(watched),
             zone,
         })
     }
@@ -164,25 +170,28 @@ impl Tick {
     }
 
     /// Where limits or the filter changed the twist, the law goes on from what the robot really does.
-    pub(crate) fn follow_limits(&mut self, ahead: Pose, wanted: Twist, sent: Twist) {
+    pub(crate) fn follow_limits(&mut self, now: Steady, ahead: Pose, wanted: Twist, sent: Twist) {
         let differs = (wanted.v - sent.v).abs() + (wanted.omega - sent.omega).abs() > SAME;
         if differs {
-            let velocity = self.steered_velocity(ahead, sent);
+            let driven = self.steered_velocity(ahead, sent);
+            let aside = self.face.ahead(now, (ahead.position(), driven));
+            let velocity = aside.map_or(driven, |(_, parting)| driven + parting);
             self.reference = self.reference.map(|reference| reference.replaced(velocity));
         }
     }
 
     /// How the steered point moves under `twist`; without a dynamic law that is the middle of the axle.
     pub(crate) fn steered_velocity(&self, pose: Pose, twist: Twist) -> Vector2<f64> {
-        let look_ahead = self.settings.dynamic.as_ref().map_or(0.0, |settings| settings.look_ahead);
-        hand_velocity(look_ahead, pose, twist)
+        hand_velocity(self.settings.look_ahead(), pose, twist)
     }
 
     /// What followers hear of the steered point: where it was at the exposure, and how it moved.
-    pub(crate) fn steered_point(&self, command: &Command) -> Option<(Vector2<f64>, Vector2<f64>)> {
+    pub(crate) fn steered_point(&self, now: Steady, command: &Command) -> Option<(Vector2<f64>, Vector2<f64>)> {
         let (settings, pose) = (self.settings.dynamic.as_ref()?, command.pose?);
-        let position = pose.position() + settings.look_ahead * pose.heading();
-        Some((position, self.told(settings, pose, command.exposure)))
+        let point = pose.position() + settings.look_ahead * pose.heading();
+        let velocity = self.told(settings, pose, command.exposure);
+        let aside = self.face.ahead(now, (point, velocity));
+        Some(aside.map_or((point, velocity), |(aside, parting)| (point + aside, velocity + parting)))
     }
 
     /// Distance of the robot's centre at the exposure from its segment, and the queue's tolerance, m.

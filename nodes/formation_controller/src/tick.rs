@@ -1,6 +1,7 @@
 //! One tick: from the newest team state to a command.
 
 use crate::dynamic::Reference;
+use crate::face::Face;
 use crate::hold::Hold;
 use crate::inputs::Inputs;
 use crate::monitor::{Monitor, News, Recursion, Watched};
@@ -27,6 +28,8 @@ const LONGEST_COMMAND: f64 = 0.1;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wanted {
     pub(crate) twist: Twist,
+    /// Whether it wants the robot to rest.
+    pub(crate) rests: bool,
     /// The point that it drives to, m; none while nothing draws the robot.
     pub(crate) drawn: Option<Vector2<f64>>,
     /// Where it means to stand, m, frame of the formation; none where it has chosen nothing.
@@ -87,6 +90,9 @@ pub(crate) struct Tick {
     pub(crate) detour: Option<(Side, Steady)>,
     /// Where the law goes on.
     pub(crate) reference: Option<Reference>,
+    pub(crate) face: Face,
+    /// Whether the formation has moved since this process drives.
+    pub(crate) formation_moved: bool,
     pub(crate) monitor: Monitor,
     /// M_j of (8.26).
     pub(crate) recursion: Recursion,
@@ -122,6 +128,8 @@ impl Tick {
             distance: None,
             detour: None,
             reference: None,
+            face: Face::default(),
+            formation_moved: false,
         }
     }
 
@@ -142,6 +150,7 @@ impl Tick {
 
     /// The robot has another place, or its segment is another one.
     pub(crate) fn renew(&mut self) {
+        self.face = Face::default();
         if let Some(agent) = &mut self.agent {
             agent.renew();
         }
@@ -161,7 +170,7 @@ impl Tick {
                 let turn = if matches!(hold, Hold::NotSeen(_)) { self.identifying(at) } else { None };
                 command.twist = turn.map_or(Twist::ZERO, |turn| self.followable(turn, acts, &mut command));
                 command.hold = Some(hold);
-                (self.holding, self.reference, self.news) = (false, None, None);
+                (self.holding, self.reference, self.news, self.face) = (false, None, None, Face::default());
                 self.following.restart();
                 self.monitor.restart();
                 self.recursion.restart();
@@ -220,10 +229,15 @@ impl Tick {
         command.lost = recovery.is_some();
         let assigned = || self.inputs.goals.of(&self.settings.robot, acts, fresh);
         let goal = recovery.map(|point| (point, Goal::PHASE_APPROACH)).or_else(assigned).ok_or(Hold::NoGoal)?;
-        let wanted = match self.settings.dynamic.clone() {
+        let mut wanted = match self.settings.dynamic.clone() {
             None => self.track(ahead, goal),
             Some(dynamic) => self.steer(&dynamic, (at, acts), ahead, goal.0, command)?,
         };
+        let faces = self.face((at, acts), ahead, &wanted);
+        if let Some(turn) = faces {
+            // What is driven is not the law: there is no way round for it, and nothing of it to watch.
+            wanted = Wanted { twist: turn, detour: None, watched: None, ..wanted };
+        }
         command.wanted = Some(wanted);
         self.distance = Some(wanted.distance);
         if !wanted.twist.is_finite() {
@@ -235,7 +249,9 @@ impl Tick {
             return Err(Hold::NotFinite);
         }
         command.twist = if filtered == followable { filtered } else { self.within_reach(filtered, acts, command) };
-        self.follow_limits(ahead, wanted.twist, command.twist);
+        if faces.is_none() {
+            self.follow_limits(at.steady, ahead, wanted.twist, command.twist);
+        }
         if command.limits != 0 {
             self.recursion.restart();
         }

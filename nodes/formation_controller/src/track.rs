@@ -5,7 +5,7 @@ use crate::monitor::watched;
 use crate::tick::{Command, Tick, Wanted};
 use trench_core::Times;
 use trench_formation::Vector2;
-use trench_formation::kinematics::Pose;
+use trench_formation::kinematics::{Pose, Twist};
 use trench_formation::laws::GoalMotion;
 use trench_formation::stability::{Input, Supply};
 use trench_msgs::msg::{Goal, LeaderState};
@@ -37,6 +37,7 @@ impl Tick {
             watched: Some(watched(&tracked, (ahead, goal, phase), feed, epoch, self.inputs.interval())),
             zone: None,
             twist: tracked.twist,
+            rests: tracked.twist == Twist::ZERO,
             drawn: Some(goal.position),
             place: None,
             error: None,

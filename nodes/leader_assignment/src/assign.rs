@@ -31,7 +31,8 @@ impl LeaderAssignment {
     }
 
     fn resume(&mut self, at: Times) -> Option<()> {
-        let Checkpoint { written, run, assignment, formation, robots, configured } = self.checkpoint.take()?;
+        let Checkpoint { written, run, assignment, formation, robots, configured, since, scale } =
+            self.checkpoint.take()?;
         let assignment = assignment?;
         let fresh = (0.0..=FRESH).contains(&at.ros.seconds_since(written));
         let known = robots.iter().all(|robot| self.settings.robots.contains(robot));
@@ -41,11 +42,13 @@ impl LeaderAssignment {
         }
         if formation.hash != self.held.message.hash || robots != self.held.robots {
             // Another one was asked for during the run. Those of the library have motion besides what a message tells.
-            let named =
-                self.settings.library.iter().find(|plan| plan.message(Header::default()).hash == formation.hash);
-            let plan = named.cloned().map_or_else(|| plan_from_message(&formation).ok(), Some)?;
-            self.held = Held { since: Some(written), ..Held::new(plan, robots) };
+            let known = self.settings.library.iter().filter(|plan| plan.name == formation.name);
+            let sized = known.filter_map(|plan| Held::at_scale(plan, scale, robots.clone()).ok());
+            let held = sized.into_iter().find(|held| held.message.hash == formation.hash);
+            let told = || plan_from_message(&formation).ok().map(|plan| Held::new(plan, robots.clone()));
+            self.held = held.or_else(told)?;
         }
+        self.held.since = since;
         self.seats = Seated::of_assignment(&self.held.plan, &assignment);
         // Links that were broken are watched anew.
         self.seats = members::without(&self.held.plan, &self.seats, |_| false);

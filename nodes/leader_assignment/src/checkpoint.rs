@@ -27,10 +27,13 @@ pub(crate) struct Checkpoint {
     pub(crate) robots: Vec<String>,
     /// Hash of the formation that the process was started with.
     pub(crate) configured: u64,
+    /// When virtual points set out, where that is not t0, and the size of the formation.
+    pub(crate) since: Option<RosTime>,
+    pub(crate) scale: f64,
 }
 
-/// The state of a run as it goes into a file: three messages, the robots' names, and the hash of the first formation,
-/// each behind its length.
+/// The state of a run as it goes into a file: three messages, the robots' names, the hash of the first formation,
+/// when the present one set out (0: at t0) and its scale, each behind its length.
 #[must_use]
 pub(crate) fn write(
     now: RosTime,
@@ -49,10 +52,12 @@ pub(crate) fn write(
     let mut bytes = Vec::new();
     let assignment = assignment.map(Encode::to_cdr).unwrap_or_default();
     let robots = held.robots.join(SEPARATOR).into_bytes();
-    let parts = [state.to_cdr(), assignment, held.message.to_cdr(), robots, configured.to_le_bytes().to_vec()];
-    for cdr in parts {
-        bytes.extend_from_slice(&(cdr.len() as u32).to_le_bytes());
-        bytes.extend_from_slice(&cdr);
+    let numbers =
+        [configured.to_le_bytes(), held.since.map_or(0, |since| since.0).to_le_bytes(), held.scale.to_le_bytes()];
+    let parts = [state.to_cdr(), assignment, held.message.to_cdr(), robots].into_iter();
+    for part in parts.chain(numbers.map(|number| number.to_vec())) {
+        bytes.extend_from_slice(&(part.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(&part);
     }
     bytes
 }
@@ -65,6 +70,8 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let (formation, rest) = part(rest)?;
     let (robots, rest) = part(rest)?;
     let (configured, rest) = part(rest)?;
+    let (since, rest) = part(rest)?;
+    let (scale, rest) = part(rest)?;
     if !rest.is_empty() {
         return None;
     }
@@ -76,7 +83,10 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Checkpoint> {
     let robots = std::str::from_utf8(robots).ok()?;
     let robots = robots.split(SEPARATOR).filter(|robot| !robot.is_empty()).map(str::to_owned).collect();
     let configured = u64::from_le_bytes(configured.try_into().ok()?);
-    Some(Checkpoint { written: RosTime::from(&state.header.stamp), run, assignment, formation, robots, configured })
+    let since = Some(RosTime(i64::from_le_bytes(since.try_into().ok()?))).filter(|since| since.0 != 0);
+    let scale = f64::from_le_bytes(scale.try_into().ok()?);
+    let written = RosTime::from(&state.header.stamp);
+    Some(Checkpoint { written, run, assignment, formation, robots, configured, since, scale })
 }
 
 fn part(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
@@ -103,11 +113,12 @@ mod tests {
         run.localised(RosTime(1_500_000_000));
         let assignment = Assignment { epoch: 7, ..Default::default() };
         let written = RosTime(9_000_000_000);
-        for assignment in [Some(assignment), None] {
-            let held = held();
+        for (assignment, since) in [(Some(assignment), None), (None, Some(RosTime(2_000_000_000)))] {
+            let held = Held { since, scale: 0.75, ..held() };
             let bytes = write(written, &run, assignment.as_ref(), &held, 9);
-            let (formation, robots) = (held.message, held.robots);
-            let expected = Checkpoint { written, run: run.clone(), assignment, formation, robots, configured: 9 };
+            let (run, formation, robots) = (run.clone(), held.message, held.robots);
+            let expected =
+                Checkpoint { written, run, assignment, formation, robots, configured: 9, since, scale: 0.75 };
             assert_eq!(read(&bytes), Some(expected));
         }
     }

@@ -10,7 +10,7 @@ use trench_msgs::Message;
 use trench_msgs::msg::Formation;
 use trench_msgs::msg::{SetFormationRequest, SetFormationResponse};
 use trench_msgs::std_srvs::TriggerResponse;
-use trench_plan::{Plan, plan_from_message};
+use trench_plan::plan_from_message;
 
 /// In the order of the services: ~/arm, ~/start, ~/stop, ~/reset; ~/set_formation follows.
 const REQUESTS: [Request; 4] = [Request::Arm, Request::Start, Request::Stop, Request::Reset];
@@ -58,44 +58,46 @@ impl LeaderAssignment {
     /// Somebody sent a formation to hold from now on.
     pub(crate) fn formation_asked(&mut self, at: Times, message: &Formation, sink: &mut dyn Sink) {
         let answer = match plan_from_message(message) {
-            Ok(plan) => self.hold(at, (plan, self.held.robots.clone()), sink),
+            Ok(plan) => self.hold(at, Held::new(plan, self.held.robots.clone()), sink),
             Err(error) => Err(error.to_string()),
         };
         self.told(answer, sink);
     }
 
-    /// The formation that a request means, with its robots.
-    fn chosen(&self, request: &SetFormationRequest) -> Result<(Plan, Vec<String>), String> {
+    /// The formation that a request means, with its robots. The same request twice means the same: an answer may be lost.
+    fn chosen(&self, request: &SetFormationRequest) -> Result<Held, String> {
         let named = |name: &str| {
             let known = || self.settings.library.iter().map(|plan| plan.name.as_str()).collect::<Vec<_>>().join(", ");
             let plan = self.settings.library.iter().find(|plan| plan.name == name);
             plan.ok_or_else(|| format!("no formation is called {name}; there are {}", known()))
         };
-        let plan = if request.name.is_empty() { &self.held.plan } else { named(&request.name)? };
-        let scale = if request.scale == 0.0 { 1.0 } else { request.scale };
+        let (plan, present) = match request.name.as_str() {
+            "" => (&self.held.original, self.held.scale),
+            name => (named(name)?, 1.0),
+        };
+        let scale = if request.scale == 0.0 { present } else { request.scale };
         if !(scale.is_finite() && scale > 0.0 && scale <= MOST_SCALE) {
             return Err(format!("scale is {scale}: write a factor above 0, up to {MOST_SCALE}"));
         }
-        let plan = plan.scaled(scale).map_err(|error| format!("{} times {scale}: {error}", plan.name))?;
         let robots = if request.robots.is_empty() { self.held.robots.clone() } else { request.robots.clone() };
-        Ok((plan, admit_robots(&robots, &self.settings.robots)?))
+        Held::at_scale(plan, scale, admit_robots(&robots, &self.settings.robots)?)
     }
 
     /// Puts a formation into force, if it fits.
-    fn hold(&mut self, at: Times, (plan, robots): (Plan, Vec<String>), sink: &mut dyn Sink) -> Result<String, String> {
+    fn hold(&mut self, at: Times, mut held: Held, sink: &mut dyn Sink) -> Result<String, String> {
+        let Held { plan, robots, .. } = &held;
         if robots.len() > plan.places() {
             return Err(format!("{} robots, but {} has {} places", robots.len(), plan.name, plan.places()));
         }
-        self.settings.room.admit(&plan)?;
-        let missing = self.unlocalised(&robots);
+        self.settings.room.admit(plan)?;
+        let missing = self.unlocalised(robots);
         if self.run.running() && !missing.is_empty() {
             return Err(format!("not localised: {}", missing.join(", ")));
         }
-        let mut held = Held::new(plan, robots);
         if held.message.hash == self.held.message.hash && held.robots == self.held.robots {
             return Ok(format!("{} is in force already", held.plan.name));
         }
-        held.since = self.run.running().then_some(at.ros);
+        held.since = if held.goes_on_from(&self.held) { self.held.since } else { self.run.running().then_some(at.ros) };
         // Positions that make no assignment are refused before anything changes.
         let known: Vec<(String, Vector2<f64>)> = self.positions(&held, at).unwrap_or_default();
         organise(&held.plan, &known, &self.seats, self.settings.seating).map_err(|error| error.to_string())?;
@@ -132,7 +134,7 @@ impl LeaderAssignment {
         }
     }
 
-    /// Seconds for which the present formation has been moving: since t0, or since it replaced another one.
+    /// Seconds for which the present formation has been moving: since t0, or since it replaced one of another shape.
     pub(crate) fn elapsed(&self, stamp: RosTime) -> f64 {
         let began = self.run.t0().map(|t0| self.held.since.map_or(t0, |since| since.max(t0)));
         began.map_or(0.0, |began| stamp.seconds_since(began))

@@ -12,8 +12,8 @@ use trench_view::{Role, subscriptions};
 
 /// The shortest time between two pictures, s.
 const PERIOD: f64 = 0.04;
-/// How often it looks whether somebody has come, s.
-const LOOK: f64 = 0.2;
+/// How often it looks whether somebody has come, and takes what was said, s.
+const LOOK: f64 = 0.1;
 /// How often it tells of the picture on /markers, s.
 const MARKERS_PERIOD: f64 = 1.0;
 /// The publication of markers, where there is one.
@@ -73,7 +73,9 @@ fn parameters() -> Vec<ParameterDescriptor> {
 fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let hub = HUB.get().ok_or_else(|| parameters.error("robots", "has no page to show", "start trench view"))?;
     let topics = subscriptions(parameters.str_list("robots")?, parameters.bool("ground_truth")?);
-    let (roles, subscriptions) = topics.into_iter().unzip();
+    // Hundreds of messages a second come for some pictures: whoever looks need not be woken by each.
+    let at_leisure = topics.into_iter().map(|(role, topic)| (role, topic.without_waking()));
+    let (roles, subscriptions) = at_leisure.unzip();
     let markers = Advertise::of::<MarkerArray>("/markers", Qos::RELIABLE, Local::NetworkOnly);
     let publications = if parameters.bool("markers")? { vec![markers] } else { Vec::new() };
     Ok(Box::new(Viewer {

@@ -11,12 +11,10 @@ impl Island {
     /// Runs a program to its end and gives the document it prints. Arguments are split at blanks.
     pub(crate) fn ask(&self, program: &str, arguments: &str) -> Value {
         let patience = PATIENCE.as_secs().to_string();
-        let asked = Instant::now();
         let mut command = self.python(program);
         let output = command.args(arguments.split_whitespace()).args(["--timeout", &patience]).output().unwrap();
         let problem = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{program} {arguments}: {problem}");
-        println!("{program} {arguments}: answered after {:.1} s", asked.elapsed().as_secs_f64());
         serde_json::from_slice(&output.stdout).unwrap()
     }
 

@@ -4,7 +4,7 @@ use super::{Connections, Node};
 use crate::topics::{Heard, Listener};
 use crate::transport::TransportError;
 use crate::transport::network::GraphChange;
-use trench_core::Discovered;
+use trench_core::{Discovered, Subscribe};
 
 impl Node {
     /// Follows the ROS graph, as far as it is not about topics that are read.
@@ -30,18 +30,21 @@ impl Node {
         }
     }
 
-    /// Opens the subscription that the core wants to a topic that was discovered, as node number `index` of the
-    /// process. Whether it wanted one.
-    pub(crate) fn discover(
+    /// The subscription that the core wants to a topic that was discovered.
+    pub(crate) fn wants(&mut self, topic: Discovered<'_>) -> Option<Subscribe> {
+        self.core.discovered(topic)
+    }
+
+    /// Opens such a subscription, as node number `index` of the process.
+    pub(crate) fn open_found(
         &mut self,
-        topic: Discovered<'_>,
+        subscribe: &Subscribe,
         index: usize,
         to: &mut Connections<'_>,
-    ) -> Result<bool, TransportError> {
-        let Some(subscribe) = self.core.discovered(topic) else { return Ok(false) };
+    ) -> Result<(), TransportError> {
         let listener = Listener { node: index, what: Heard::Port(self.subscribed) };
-        to.subscribe(&self.full_name, listener, subscribe.topic.clone(), &subscribe, false)?;
+        to.subscribe(&self.full_name, listener, subscribe.topic.clone(), subscribe, false)?;
         self.subscribed += 1;
-        Ok(true)
+        Ok(())
     }
 }

@@ -23,7 +23,7 @@ fn commands_are_young_beside_images(pair: &Pair, rate: &str) {
     let command = "--ros-args -r /stamps:=/commands -p bytes:=80 -p rate:=50.0";
     let image = "--ros-args -r /stamps:=/images -p bytes:=9240 -p rate:=10.0 -p best_effort:=true";
     let source = "-p role:=source -p shared_memory:=false";
-    // What nodes tell one another when they meet fills such a link for a few seconds.
+    // What nodes tell one another when they meet fills such a link for some seconds.
     let images = pair.east("latency", &format!("{image} -p count:=10 -r __node:=eye"));
     let taken = "-p read_best_effort:=[\"*\"]";
     let commands = pair.east("latency", &format!("{command} {taken} -p skip:=300 -p count:=400 -r __node:=wheels"));

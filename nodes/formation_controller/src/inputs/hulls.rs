@@ -93,18 +93,23 @@ impl Hulls {
         })
     }
 
-    /// What the body of a robot at `centre` must not touch: the apparent obstacles, and the members alone of one that has closed
-    /// around it (7.7).
-    pub(crate) fn bodies(&self, centre: Vector2<f64>) -> Vec<MovingOutline<'_>> {
+    /// What the body of a robot at `centre` must not touch: the apparent obstacles, the members, too, of one that is nearer than `reach` (m),
+    /// and the members alone of one that has closed around it (7.7).
+    ///
+    /// A hull that moves or comes into being may reach into a body. Whoever then goes along its face, and so no nearer to it, may
+    /// still run into a member behind that face.
+    pub(crate) fn bodies(&self, centre: Vector2<f64>, reach: f64) -> Vec<MovingOutline<'_>> {
         let mut bodies = Vec::with_capacity(self.apparent.len());
         for (hull, velocity) in self.apparent.iter().zip(&self.velocities) {
             let outline = hull.shape.outline();
-            let inside = hull.members.len() > 1 && outline.approach(centre).gap < 0.0;
+            let gap = outline.approach(centre).gap;
             let members =
                 || self.real.iter().zip(&self.real_velocities).filter(|(real, _)| hull.members.contains(&real.id));
-            if inside && members().count() == hull.members.len() {
+            let is_combined = hull.members.len() > 1 && members().count() == hull.members.len();
+            if is_combined && gap < reach {
                 bodies.extend(members().map(|(real, velocity)| moving(real.shape.outline(), velocity)));
-            } else {
+            }
+            if !is_combined || gap >= 0.0 {
                 bodies.push(moving(outline, velocity));
             }
         }
@@ -142,8 +147,9 @@ mod tests {
     #[test]
     fn a_robot_that_is_enclosed_goes_by_the_members() {
         let hulls = Hulls::of(&walls()).unwrap();
-        assert_eq!(hulls.bodies(Vector2::new(0.5, 1.0)).len(), 1);
-        let inside = hulls.bodies(Vector2::new(0.5, 0.2));
+        assert_eq!(hulls.bodies(Vector2::new(0.5, 1.0), 0.16).len(), 1);
+        assert_eq!(hulls.bodies(Vector2::new(0.5, 0.5), 0.16).len(), 3, "hull and members");
+        let inside = hulls.bodies(Vector2::new(0.5, 0.2), 0.16);
         assert_eq!(inside.len(), 2);
         assert!((inside[0].outline.approach(Vector2::new(0.5, 0.2)).gap - 0.18).abs() < 1e-12);
     }

@@ -65,6 +65,8 @@ pub(crate) struct Bench {
     pub(crate) obstacles: ApparentObstacleArray,
     /// The goal point, m.
     pub(crate) goal: Point2,
+    /// How it and the frame of the formation move, m/s.
+    pub(crate) moves: Point2,
     /// Whom else the localizer sees.
     pub(crate) others: Vec<RobotState>,
 }
@@ -88,6 +90,7 @@ impl Bench {
             twist: Twist::ZERO,
             obstacles: ApparentObstacleArray::default(),
             goal: Point2 { x: 1.5, y: 0.9 },
+            moves: Point2::default(),
             others: Vec::new(),
         }
     }
@@ -122,9 +125,11 @@ impl Bench {
         let obstacles = self.obstacles.to_cdr();
         self.send_bytes("/apparent_obstacles", &obstacles);
         let position = self.goal;
-        let goal = Goal { robot: "robot1".to_owned(), position, remaining: 1e9, ..Default::default() };
+        let goal =
+            Goal { robot: "robot1".to_owned(), position, velocity: self.moves, remaining: 1e9, ..Default::default() };
         let ahead = Goal { robot: "robot2".to_owned(), position: Point2 { x: 1.9, y: 0.9 }, ..goal.clone() };
         let mut goals = Goals { goals: vec![goal, ahead], ..Default::default() };
+        goals.frame.velocity = self.moves;
         goals.header.stamp = self.times().ros.into();
         self.send("/goals", &goals);
     }

@@ -4,6 +4,7 @@
 mod bench;
 mod chain;
 mod deviation;
+mod face;
 mod laws;
 mod markers;
 mod remedies;

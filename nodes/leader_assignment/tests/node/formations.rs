@@ -22,12 +22,56 @@ fn the_formation_changes_while_running_in_size_and_number() {
     bench.see(RobotState::STATUS_TRACKED);
     let goals: Goals = bench.last("/goals").unwrap();
     assert_eq!((goals.epoch, goals.goals.len()), (2, 3));
-    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_APPROACH), "the new one sets out now");
     let again = bench.set_formation("", 0.0, &[]);
     assert!(again.success && again.message.contains("already"), "{again:?}");
     assert!(bench.last::<Assignment>("/assignment").is_none(), "nothing flaps");
     let state: RunState = Bench::running().last("/run_state").unwrap();
     assert_eq!(state.state, RunState::RUNNING);
+}
+
+/// What a frame at this moment brings.
+fn goals(bench: &mut Bench) -> Vec<Goal> {
+    bench.out.take();
+    bench.see(RobotState::STATUS_TRACKED);
+    bench.last::<Goals>("/goals").unwrap().goals
+}
+
+#[test]
+fn another_size_and_other_robots_go_on_where_they_are_on_their_way() {
+    let mut bench = Bench::running();
+    bench.seconds += 5.0;
+    let whole = goals(&mut bench);
+    assert!(whole.iter().all(|goal| goal.phase == Goal::PHASE_MOVING), "{whole:?}");
+    let scaled = |goal: &Goal| {
+        let smaller = |value: f64| 0.9 * value;
+        let (place, speed) = (&goal.position, &goal.velocity);
+        [smaller(place.x), smaller(place.y), smaller(speed.x), smaller(speed.y)]
+    };
+    let close = |goals: &[Goal], expected: &[[f64; 4]]| {
+        let told = goals.iter().map(|goal| [goal.position.x, goal.position.y, goal.velocity.x, goal.velocity.y]);
+        assert_eq!(goals.len(), expected.len());
+        for (told, expected) in told.zip(expected) {
+            assert!(told.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{told:?}, not {expected:?}");
+        }
+    };
+    let expected: Vec<[f64; 4]> = whole.iter().map(scaled).collect();
+    for twice in ["smaller", "asked for again"] {
+        assert!(bench.set_formation("", 0.9, &[]).success);
+        let smaller = goals(&mut bench);
+        assert!(smaller.iter().all(|goal| goal.phase == Goal::PHASE_MOVING), "{twice}: {smaller:?}");
+        close(&smaller, &expected);
+    }
+    assert!(bench.set_formation("", 0.0, &["robot1", "robot2", "robot3"]).success);
+    let checkpoint = bench.checkpoint();
+    close(&goals(&mut bench), &expected[..3]);
+    let mut again = Bench::new(bench.seconds + 0.5, Some(checkpoint));
+    bench.seconds += 0.5;
+    assert_eq!(goals(&mut again), goals(&mut bench), "a process that is started again goes on, too");
+    assert!(bench.set_formation("", 0.0, &["robot1", "robot2", "robot3", "robot4"]).success);
+    assert_eq!(goals(&mut bench).len(), 4);
+    assert!(bench.set_formation("", 1.0, &[]).success);
+    let back = goals(&mut bench);
+    assert!((back[0].velocity.x - whole[0].velocity.x).abs() < 1e-9, "{back:?}");
 }
 
 /// Robots of the last assignment with their queues, in order of name.
@@ -42,6 +86,10 @@ fn queues(bench: &Bench) -> Vec<(String, u32)> {
 fn another_formation_of_the_library_comes_by_its_name_for_as_many_robots_as_it_has_places() {
     let mut bench = Bench::running_with(&[("more_formations", "[config/formations/triangle.yaml]")]);
     let square = bench.assigned();
+    bench.seconds += 5.0;
+    assert!(goals(&mut bench).iter().all(|goal| goal.phase == Goal::PHASE_MOVING));
+    bench.assignment = Some(square.clone());
+    bench.out.take();
     let refused = bench.set_formation("triangle", 0.0, &[]);
     assert!(!refused.success && refused.message.contains("4 robots, but triangle has 3 places"), "{refused:?}");
     assert_eq!(said(&bench, "formation"), (DiagnosticStatus::WARN, refused.message.clone()));
@@ -61,6 +109,7 @@ fn another_formation_of_the_library_comes_by_its_name_for_as_many_robots_as_it_h
     bench.see(RobotState::STATUS_TRACKED);
     let goals: Goals = bench.last("/goals").unwrap();
     assert_eq!((goals.epoch, goals.goals.len()), (assignment.epoch, 3));
+    assert!(goals.goals.iter().all(|goal| goal.phase == Goal::PHASE_APPROACH), "another shape sets out now");
     bench.assignment = Some(assignment);
     let answer = bench.set_formation("square", 0.0, &["robot1", "robot2", "robot3", "robot4"]);
     assert!(answer.success, "{answer:?}");

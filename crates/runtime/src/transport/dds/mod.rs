@@ -4,6 +4,7 @@
 //! sequence number of a written sample, raw bytes, matches, and the send window. ros2-client gives the types that tell
 //! the ROS graph about the endpoints.
 
+mod announcements;
 mod client;
 mod graph;
 mod image;

@@ -1,5 +1,6 @@
 //! A process's place on the network: one DDS participant for all its nodes.
 
+use super::announcements::{Announced, Announcements};
 use super::graph::{Endpoint, Graph};
 use super::pause::{FIRST_STOP, Pause};
 use super::raw::{RawAdapter, RawMessage};
@@ -23,15 +24,20 @@ use trench_msgs::ServiceInfo;
 pub(crate) struct Participant {
     /// Before the participant: this is dropped first, or the participant would wait for a thread that stands still.
     opening: Option<Opening>,
+    /// Before the participant, too: nobody may hear of it after it has gone.
+    _announcements: Option<Announcements>,
     participant: DomainParticipant,
     publisher: Publisher,
     subscriber: Subscriber,
     graph: Graph,
 }
 
+/// How long it may take until a participant has announced itself; as a rule 0.1 s.
+const ANNOUNCED: Duration = Duration::from_secs(1);
+
 /// While endpoints are opened.
 struct Opening {
-    _pause: Pause,
+    pause: Pause,
     /// How many were opened in this pause.
     endpoints: usize,
 }
@@ -46,15 +52,27 @@ impl Participant {
     /// Joins a ROS domain.
     pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
         let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
+        let mut announced = Announced::listen(domain);
         let pause = Pause::begin();
         let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
-        pause.wait(FIRST_STOP);
-        let opening = Some(Opening { _pause: pause, endpoints: 0 });
+        // It stops before it announces the participant, and where it hears that, or of others.
+        let start = Instant::now();
+        let announcement = loop {
+            let is_held = pause.wait(FIRST_STOP);
+            let own = announced.own(participant.guid());
+            if own.is_some() || !is_held || !announced.can_hear() || start.elapsed() > ANNOUNCED {
+                break own;
+            }
+            pause.step();
+        };
+        let no_thread = |source| TransportError::System { what: "cannot start a thread", source };
+        let announcements = announcement.map(Announcements::begin).transpose().map_err(no_thread)?;
+        let opening = Some(Opening { pause, endpoints: 0 });
         let defaults = QosPolicyBuilder::new().build();
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;
         let graph = Graph::new(&participant, &publisher)?;
-        Ok(Self { opening, participant, publisher, subscriber, graph })
+        Ok(Self { opening, _announcements: announcements, participant, publisher, subscriber, graph })
     }
 
     /// Changes of the ROS graph, for the event loop.
@@ -107,7 +125,7 @@ impl Participant {
             std::thread::sleep(BREATH);
             let pause = Pause::begin();
             pause.wait(BREATH);
-            self.opening = Some(Opening { _pause: pause, endpoints: 0 });
+            self.opening = Some(Opening { pause, endpoints: 0 });
         }
     }
 
@@ -147,6 +165,14 @@ impl Network for Participant {
         self.graph.announce()?;
         self.opening = None;
         Ok(())
+    }
+
+    fn prepare_to_open(&mut self) {
+        self.opening.get_or_insert_with(|| Opening { pause: Pause::begin(), endpoints: 0 });
+    }
+
+    fn is_prepared(&self) -> bool {
+        self.opening.as_ref().is_some_and(|opening| opening.pause.wait(Duration::ZERO))
     }
 
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {

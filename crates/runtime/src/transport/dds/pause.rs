@@ -9,10 +9,11 @@
 //! What breaks the circle is that the discovery thread stands still, at a place where it holds no lock, while endpoints are
 //! opened. It says so to the [`log`] facade at such places, and the logger, which is ours, returns when it may go on.
 //!
-//! It stands before the first endpoint is opened and has said nothing of this participant by then, so that others learn of it
-//! and of all its endpoints at once. RustDDS puts no time stamp on what it tells of endpoints; Fast DDS, which sorts by them
-//! what several writers sent, forgets for ever the endpoints that it asks for again while it holds later ones (found by
-//! reading its `NotifyChanges` and `history_order_cmp`; docs/decisions/0001-transport.md).
+//! It stands before the first endpoint is opened, where it hears its own participant announced ([`super::announcements`]), so that
+//! others are told of all its endpoints at once. RustDDS puts no time stamp on what it tells of endpoints; Fast DDS, which sorts by
+//! them what several writers sent, forgets for ever the endpoints that it asks for again while it holds later ones (found by
+//! reading its `NotifyChanges` and `history_order_cmp`; docs/decisions/0001-transport.md). Where no network has multicast it stands
+//! before it announces anything.
 //!
 //! A release of RustDDS that notifies without the lock makes this file superfluous; one that logs other words fails its test.
 
@@ -53,6 +54,16 @@ impl Pause {
         let held = HOLD.changed.wait_timeout_while(HOLD.lock(), patience, |state| state.held == 0);
         held.unwrap_or_else(PoisonError::into_inner).0.held > 0
     }
+
+    /// Lets a thread that is held go on to where it can be held next.
+    pub(super) fn step(&self) {
+        let mut state = HOLD.lock();
+        if state.held > 0 {
+            state.held -= 1;
+            state.steps += 1;
+            HOLD.changed.notify_all();
+        }
+    }
 }
 
 impl Drop for Pause {
@@ -66,7 +77,7 @@ impl Drop for Pause {
     }
 }
 
-static HOLD: Hold = Hold { state: Mutex::new(State { pauses: 0, held: 0 }), changed: Condvar::new() };
+static HOLD: Hold = Hold { state: Mutex::new(State { pauses: 0, held: 0, steps: 0 }), changed: Condvar::new() };
 
 struct Hold {
     state: Mutex<State>,
@@ -78,6 +89,8 @@ struct State {
     pauses: usize,
     /// How many threads stand still.
     held: usize,
+    /// How many more may go on to their next stop.
+    steps: usize,
 }
 
 impl Hold {
@@ -102,9 +115,12 @@ impl Log for Hold {
         let mut state = self.lock();
         state.held += 1;
         self.changed.notify_all();
-        let held = self.changed.wait_timeout_while(state, LONGEST, |state| state.pauses > 0);
+        let held = self.changed.wait_timeout_while(state, LONGEST, |state| state.pauses > 0 && state.steps == 0);
         let (mut state, _) = held.unwrap_or_else(PoisonError::into_inner);
-        state.held -= 1;
+        match state.steps.checked_sub(1) {
+            Some(steps) => state.steps = steps,
+            None => state.held -= 1,
+        }
     }
 
     fn flush(&self) {}

@@ -69,6 +69,14 @@ pub(crate) trait Network {
     /// Tells the ROS graph about all nodes and endpoints made so far.
     fn announce(&mut self) -> Result<(), TransportError>;
 
+    /// Endpoints are to be opened although the process runs: asks for the moment in which that does no harm.
+    fn prepare_to_open(&mut self) {}
+
+    /// Whether it is now, until [`Network::announce`].
+    fn is_prepared(&self) -> bool {
+        true
+    }
+
     /// Opens a topic for writing.
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError>;
 
