@@ -24,7 +24,8 @@ impl Remedy {
         if gap < 0.0 {
             let walls: Vec<Outline<'_>> = sight.around.real.iter().map(|real| real.shape.outline()).collect();
             let (room, cut) = (sight.potential.pole_with_margin(), sight.potential.cut());
-            let way = escape(&outline, &walls, robot, room, cut);
+            // Beyond the cut: a robot lags behind its carrot where it has to keep up with a hull that moves.
+            let way = escape(&outline, &walls, robot, room, 2.0 * cut);
             self.state = way.map_or(suspended, |way| State::Escaping { obstacle: obstacle.id, carrot: robot, way });
             return;
         }

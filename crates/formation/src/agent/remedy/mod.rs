@@ -200,10 +200,23 @@ impl Remedy {
             State::Suspended { .. } => {}
             State::Escaping { obstacle, carrot, way } => {
                 let cut = sight.potential.cut();
-                if sight.find(*obstacle).is_none_or(|index| sight.approach(index, robot).gap >= cut) {
-                    *self = Self::default();
-                } else {
-                    sight.lead(robot, carrot, way);
+                match sight.find(*obstacle) {
+                    Some(index) if sight.approach(index, robot).gap < cut => {
+                        // The way out goes along with what encloses the robot.
+                        let by = sight.step * sight.around.velocity(index);
+                        *carrot += by;
+                        way.iter_mut().for_each(|corner| *corner += by);
+                        sight.lead(robot, carrot, way);
+                        // A teammate may stand where the way ends.
+                        let waits = sight.approach(index, robot).gap > 0.0 && sight.waits(robot, carrot);
+                        let deviation = (target - robot).norm();
+                        held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                    }
+                    out => {
+                        *self = Self::default();
+                        // Else it would come back at once.
+                        held = out.is_some_and(|index| sight.is_pulled_into(index, robot));
+                    }
                 }
             }
             State::Led { until, carrot, way } => {
@@ -215,10 +228,14 @@ impl Remedy {
                 } else {
                     sight.carry(robot, carrot, way);
                     sight.lead(robot, carrot, way);
+                    // Teammates may have taken places on the way since it was found.
+                    let (waits, deviation) = (sight.waits(robot, carrot), (target - robot).norm());
+                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
                 }
             }
         }
         if held {
+            self.restart();
             self.state = sight.led(robot, target);
         }
         match &self.state {

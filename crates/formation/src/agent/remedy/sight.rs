@@ -7,6 +7,9 @@ use crate::avoidance::way_round;
 use crate::hull::Approach;
 use crate::zoning::{ObstaclePotential, Zone, Zoning};
 
+/// Pieces of a straight line that are looked at.
+const LOOKS: u32 = 64;
+
 /// What remedies look at: displacements of obstacles since the tick included.
 #[derive(Clone, Copy)]
 pub(in crate::agent) struct Sight<'a> {
@@ -60,6 +63,18 @@ impl Sight<'_> {
     pub(super) fn is_pulled(&self, robot: Vector2<f64>) -> bool {
         let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
         leader.is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
+    }
+
+    /// Whether the leader's attraction would draw the robot into a hull.
+    pub(super) fn is_pulled_into(&self, index: usize, robot: Vector2<f64>) -> bool {
+        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
+        let through = |leader: Vector2<f64>| {
+            (1..LOOKS).any(|look| {
+                let share = f64::from(look) / f64::from(LOOKS);
+                self.approach(index, robot + share * (leader - robot)).gap < 0.0
+            })
+        };
+        self.is_pulled(robot) && leader.is_some_and(through)
     }
 
     fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
