@@ -12,6 +12,9 @@ use crate::trench::{Damping, Trench};
 /// A push within this of straight against the attraction (its sine) is turned by [`SIDESTEP`] (rad).
 const HEAD_ON: f64 = 0.05;
 const SIDESTEP: f64 = 0.15;
+/// An obstacle whose middle is farther aside from the attraction than this (its sine) is passed on the other side, round the nearer end: at
+/// the tip of a long one a turn towards the rest of it holds the robot there.
+const ASIDE: f64 = 0.5;
 /// A nearest point this far (m, per metre of distance and at all) from straight beside the robot is a corner or an end, which does not slide.
 const BESIDE: f64 = 1e-9;
 
@@ -138,7 +141,7 @@ impl<T: Trench> Agent<T> {
         for other in around.ahead {
             let there = other.coasted(moment.since);
             let push = Push::of_robot_ahead(&settings.zoning, position, there.position);
-            sum.add_turned(By::Robot, self.sidestepped(push, target), there.velocity - still, sliding);
+            sum.add_turned(By::Robot, self.sidestepped(push, target, None), there.velocity - still, sliding);
         }
         if let Some(leader) = leader {
             let push = match attracted.led {
@@ -149,7 +152,13 @@ impl<T: Trench> Agent<T> {
         }
         for index in self.obstacles_near(around, moment.since, position) {
             let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, position));
-            sum.add_turned(By::Obstacle, self.sidestepped(push, target), around.velocity(index) - still, sliding);
+            let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since) - position;
+            sum.add_turned(
+                By::Obstacle,
+                self.sidestepped(push, target, Some(middle)),
+                around.velocity(index) - still,
+                sliding,
+            );
         }
         sum
     }
@@ -248,14 +257,21 @@ impl<T: Trench> Agent<T> {
         }
     }
 
-    /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right.
-    fn sidestepped(&self, push: Push, target: Option<Vector2<f64>>) -> (Push, Vector2<f64>) {
+    /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right, or,
+    /// where the `middle` of what pushes (from the robot, m) lies far to the right, to its left.
+    fn sidestepped(
+        &self,
+        push: Push,
+        target: Option<Vector2<f64>>,
+        middle: Option<Vector2<f64>>,
+    ) -> (Push, Vector2<f64>) {
         let Some(target) = target.filter(|_| self.settings.sidesteps) else { return (push, push.force) };
         let (against, across) = (push.force.dot(&target), push.force.perp(&target));
         if against >= 0.0 || across.abs() > HEAD_ON * -against {
             return (push, push.force);
         }
-        let (sine, cosine) = libm::sincos(SIDESTEP);
+        let lies_right = middle.is_some_and(|middle| target.perp(&middle) < -ASIDE * target.norm() * middle.norm());
+        let (sine, cosine) = libm::sincos(if lies_right { -SIDESTEP } else { SIDESTEP });
         let [x, y] = [push.force.x, push.force.y];
         (push, Vector2::new(cosine * x - sine * y, sine * x + cosine * y))
     }

@@ -12,7 +12,7 @@ const MOST_CELLS: f64 = 400.0;
 
 /// Corners of a short way from `robot` to where the repulsion of `hull` ends, `cut` (m) from it; the last corner is there. The printed
 /// "nearest point outside" may lie behind a wall of a member: this way keeps `body_radius` (m) from `walls`, the members' true
-/// boundaries. Nothing if there is no way out.
+/// boundaries, but for its first steps where the robot is nearer. Nothing if there is no way out.
 pub fn escape(
     hull: &Outline<'_>,
     walls: &[Outline<'_>],
@@ -21,7 +21,13 @@ pub fn escape(
     cut: f64,
 ) -> Option<Vec<Vector2<f64>>> {
     let grid = Grid::around(hull.points, robot, 0.5 * body_radius, hull.radius + cut);
-    let is_free = |point: Vector2<f64>| walls.iter().all(|wall| wall.approach(point).gap >= body_radius);
+    let gap = |point: Vector2<f64>| walls.iter().map(|wall| wall.approach(point).gap).fold(f64::INFINITY, f64::min);
+    // Who is nearer than that to a wall may leave it.
+    let nearer = gap(robot).min(body_radius);
+    let is_free = |point: Vector2<f64>| {
+        let gap = gap(point);
+        gap >= body_radius || (gap >= nearer && (point - robot).norm() <= 2.0 * body_radius)
+    };
     let cells = grid.search(&is_free, |point| hull.approach(point).gap >= cut)?;
     Some(straightened(robot, &cells, &grid, &is_free))
 }
@@ -143,6 +149,22 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A corner of two walls with a robot in it, 0.1 m from both, where ways keep 0.2 m.
+    #[test]
+    fn who_is_nearer_to_a_wall_than_ways_keep_may_leave_it() {
+        let [corner, right, up] = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(Vector2::from);
+        let (floor, side, all) = ([corner, right], [corner, up], [corner, right, up]);
+        let walls = [&floor, &side].map(|points| Outline { points, radius: 0.05 });
+        let (hull, robot) = (Outline { points: &all, radius: 0.05 }, Vector2::new(0.15, 0.15));
+        let way = escape(&hull, &walls, robot, 0.2, 0.3).unwrap();
+        assert!(hull.approach(way[way.len() - 1]).gap >= 0.3, "{way:?}");
+        let gap = |point: Vector2<f64>| walls.iter().map(|wall| wall.approach(point).gap).fold(f64::INFINITY, f64::min);
+        assert!(is_clear(robot, way[0], 0.01, &|point| gap(point) >= 0.1 - 1e-9), "{way:?}");
+        let mut corners = way.iter().zip(&way[1..]);
+        assert!(corners.all(|(from, to)| is_clear(*from, *to, 0.01, &|point| gap(point) >= 0.2 - 1e-9)), "{way:?}");
+        assert_eq!(escape(&hull, &walls, Vector2::new(0.04, 0.04), 0.2, 0.3).map(|_| ()), Some(()), "touching, too");
+    }
 
     /// The way out begins behind the robot: a pocket whose mouth is on the side away from the target.
     #[test]

@@ -95,6 +95,11 @@ impl Shape {
         }
     }
 
+    /// A point well inside, about which it lies, m.
+    pub(crate) fn middle(&self) -> Vector2<f64> {
+        self.middle
+    }
+
     /// Corners counter-clockwise and radius.
     #[inline]
     pub fn outline(&self) -> Outline<'_> {

@@ -31,7 +31,7 @@ pub use integrate::Integration;
 pub use judge::{Standard, Verdict, judge};
 pub use neighbours::Neighbours;
 pub use observe::Outcome;
-pub use random::{BODY_RADIUS, CAPABILITY, random_team};
+pub use random::{BODY_RADIUS, CAPABILITY, random_team, random_team_among_concave_obstacles};
 pub use regulation::Regulation;
 pub use scenario::{ChainScenario, Options, ScenarioError};
 pub use sight::Sight;

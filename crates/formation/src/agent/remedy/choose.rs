@@ -10,11 +10,10 @@ impl Remedy {
         let gap = |index: usize| sight.approach(index, robot).gap;
         let nearest = (0..sight.around.apparent.len()).map(|index| (gap(index), index));
         let target = drawn.point();
-        let deviation = (target - robot).norm();
         let settings = &sight.remedies.watch;
         let crowded = sight.teammate_gap(robot) < settings.radius;
         let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            if self.watch.is_caught(settings, sight.time(), robot, deviation, crowded) {
+            if self.is_caught(sight, robot, target, (None, crowded)) {
                 self.state = sight.led(robot, target);
             }
             return;
@@ -25,12 +24,13 @@ impl Remedy {
         if gap < 0.0 {
             let walls: Vec<Outline<'_>> = sight.around.real.iter().map(|real| real.shape.outline()).collect();
             let (room, cut) = (sight.potential.pole_with_margin(), sight.potential.cut());
-            let way = escape(&outline, &walls, robot, room, cut);
+            // Beyond the cut: a robot lags behind its carrot where it has to keep up with a hull that moves.
+            let way = escape(&outline, &walls, robot, room, 2.0 * cut);
             self.state = way.map_or(suspended, |way| State::Escaping { obstacle: obstacle.id, carrot: robot, way });
             return;
         }
         let repelled = gap < sight.potential.cut() + settings.radius;
-        if self.watch.is_caught(settings, sight.time(), robot, deviation, repelled || crowded) {
+        if self.is_caught(sight, robot, target, (Some(index).filter(|_| repelled), repelled || crowded)) {
             let seen = sight.seen_by(index, robot);
             let guard = || guard(&sight.moment.segment, drawn, &outline, seen, settings.radius);
             let guarded = repelled && !crowded && !sight.is_pulled(robot);

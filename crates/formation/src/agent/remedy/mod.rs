@@ -16,6 +16,8 @@ use crate::hull::Approach;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Remedy {
     watch: Watch,
+    /// In the frame of an obstacle that pushes the robot along, away from what draws it.
+    drift: Watch,
     state: State,
 }
 
@@ -121,7 +123,37 @@ impl Remedy {
 
     /// The robot rests on purpose: what it was watched for begins anew.
     pub(super) fn pause(&mut self) {
+        self.restart();
+    }
+
+    fn restart(&mut self) {
         self.watch.restart();
+        self.drift.restart();
+    }
+
+    /// Whether a robot that something pushes away, if `repelled`, stays where it is, or before an obstacle (by its index) that drives it
+    /// away from its target.
+    fn is_caught(
+        &mut self,
+        sight: &Sight<'_>,
+        robot: Vector2<f64>,
+        target: Vector2<f64>,
+        (obstacle, repelled): (Option<usize>, bool),
+    ) -> bool {
+        let deviation = (target - robot).norm();
+        let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, repelled);
+        self.is_driven(sight, robot, target, obstacle) || stays
+    }
+
+    /// Whether a robot stays before an obstacle that moves, and drives it away from its target.
+    fn is_driven(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, target: Vector2<f64>, by: Option<usize>) -> bool {
+        let velocity = by.map(|index| sight.around.velocity(index));
+        let Some(velocity) = velocity.filter(|velocity| velocity.dot(&(target - robot)) < 0.0) else {
+            self.drift.restart();
+            return false;
+        };
+        let (time, deviation) = (sight.time(), (target - robot).norm());
+        self.drift.is_caught(&sight.remedies.watch, time, robot - time * velocity, deviation, true)
     }
 
     /// A tick: guards have gone on with their obstacles, and what is gone needs no remedy.
@@ -149,15 +181,15 @@ impl Remedy {
             State::Free => self.choose(sight, robot, drawn),
             State::Guarded { obstacle, guard, sunk } => {
                 *sunk = (*sunk - sight.remedies.rising * sight.step).max(0.0);
-                let seen = sight.find(*obstacle).map_or(robot, |index| sight.seen_by(index, robot));
+                let index = sight.find(*obstacle);
+                let seen = index.map_or(robot, |index| sight.seen_by(index, robot));
                 if !guard.shields(seen) {
                     *self = Self::default();
                 } else if *sunk > 0.0 {
-                    self.watch.restart();
+                    self.restart();
                 } else {
                     // Guards have places of rest of their own.
-                    let deviation = (target - robot).norm();
-                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, true);
+                    held = self.is_caught(sight, robot, target, (index, true));
                 }
             }
             State::Suspended { until, .. } if sight.time() >= *until => {
@@ -168,10 +200,23 @@ impl Remedy {
             State::Suspended { .. } => {}
             State::Escaping { obstacle, carrot, way } => {
                 let cut = sight.potential.cut();
-                if sight.find(*obstacle).is_none_or(|index| sight.approach(index, robot).gap >= cut) {
-                    *self = Self::default();
-                } else {
-                    sight.lead(robot, carrot, way);
+                match sight.find(*obstacle) {
+                    Some(index) if sight.approach(index, robot).gap < cut => {
+                        // The way out goes along with what encloses the robot.
+                        let by = sight.step * sight.around.velocity(index);
+                        *carrot += by;
+                        way.iter_mut().for_each(|corner| *corner += by);
+                        sight.lead(robot, carrot, way);
+                        // A teammate may stand where the way ends.
+                        let waits = sight.approach(index, robot).gap > 0.0 && sight.waits(robot, carrot);
+                        let deviation = (target - robot).norm();
+                        held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                    }
+                    out => {
+                        *self = Self::default();
+                        // Else it would come back at once.
+                        held = out.is_some_and(|index| sight.is_pulled_into(index, robot));
+                    }
                 }
             }
             State::Led { until, carrot, way } => {
@@ -181,11 +226,16 @@ impl Remedy {
                 if there || astray || sight.time() >= *until {
                     *self = Self::default();
                 } else {
+                    sight.carry(robot, carrot, way);
                     sight.lead(robot, carrot, way);
+                    // Teammates may have taken places on the way since it was found.
+                    let (waits, deviation) = (sight.waits(robot, carrot), (target - robot).norm());
+                    held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
                 }
             }
         }
         if held {
+            self.restart();
             self.state = sight.led(robot, target);
         }
         match &self.state {

@@ -7,6 +7,9 @@ use crate::avoidance::way_round;
 use crate::hull::Approach;
 use crate::zoning::{ObstaclePotential, Zone, Zoning};
 
+/// Pieces of a straight line that are looked at.
+const LOOKS: u32 = 64;
+
 /// What remedies look at: displacements of obstacles since the tick included.
 #[derive(Clone, Copy)]
 pub(in crate::agent) struct Sight<'a> {
@@ -33,6 +36,22 @@ impl Sight<'_> {
         self.around.apparent[index].shape.outline().approach(self.seen_by(index, robot))
     }
 
+    /// Whether a `carrot` waits for a robot that does not come after it.
+    pub(super) fn waits(&self, robot: Vector2<f64>, carrot: &Vector2<f64>) -> bool {
+        (carrot - robot).norm() >= self.potential.cut()
+    }
+
+    /// A way round what moves goes along with it while the robot is near it, but for its end: else it would be overrun.
+    pub(super) fn carry(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut [Vector2<f64>]) {
+        let reach = self.potential.cut() + self.remedies.watch.radius;
+        let gaps = (0..self.around.apparent.len()).map(|index| (self.approach(index, robot).gap, index));
+        let near = gaps.filter(|(gap, _)| *gap < reach).min_by(|a, b| a.0.total_cmp(&b.0));
+        let (Some((_, index)), Some((_, corners))) = (near, way.split_last_mut()) else { return };
+        let by = self.step * self.around.velocity(index);
+        *carrot += by;
+        corners.iter_mut().for_each(|corner| *corner += by);
+    }
+
     /// Least distance from the zone 2 of a robot ahead, m; negative within.
     pub(super) fn teammate_gap(&self, robot: Vector2<f64>) -> f64 {
         let near = self.teammates().map(|other| (other - robot).norm()).fold(f64::INFINITY, f64::min);
@@ -46,6 +65,18 @@ impl Sight<'_> {
         leader.is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
     }
 
+    /// Whether the leader's attraction would draw the robot into a hull.
+    pub(super) fn is_pulled_into(&self, index: usize, robot: Vector2<f64>) -> bool {
+        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
+        let through = |leader: Vector2<f64>| {
+            (1..LOOKS).any(|look| {
+                let share = f64::from(look) / f64::from(LOOKS);
+                self.approach(index, robot + share * (leader - robot)).gap < 0.0
+            })
+        };
+        self.is_pulled(robot) && leader.is_some_and(through)
+    }
+
     fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
         let leader = self.around.leader.map(|leader| leader.state);
         self.around.ahead.iter().copied().chain(leader).map(|robot| robot.coasted(self.moment.since).position)
@@ -54,7 +85,7 @@ impl Sight<'_> {
     /// Moves a `carrot` along the way ahead of a robot that comes after it.
     pub(super) fn lead(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut Vec<Vector2<f64>>) {
         let pace = self.remedies.rising * self.step;
-        if let Some(next) = way.first().copied().filter(|_| (*carrot - robot).norm() < self.potential.cut()) {
+        if let Some(next) = way.first().copied().filter(|_| !self.waits(robot, carrot)) {
             let ahead = next - *carrot;
             if ahead.norm() <= pace {
                 way.remove(0);

@@ -1,11 +1,12 @@
 //! Random teams: robots, a segment and obstacles from a seed.
 mod chance;
+mod concave;
 mod obstacles;
 mod segment;
 mod starts;
 
 use self::chance::Chance;
-use self::obstacles::Field;
+use self::obstacles::{Boundary, Field};
 use self::segment::random_segment;
 use self::starts::random_starts;
 use super::{Carriage, ChainScenario, Encroaching, Options, Remedies};
@@ -28,20 +29,30 @@ pub const CAPABILITY: Capability = Capability { speed: 0.5, acceleration: 2.0 };
 const CUT: f64 = 0.5;
 /// rho_clearance, m.
 const CLEARANCE: f64 = 1.0;
-/// The scenario of a seed: 2 to 20 robots at rest, one segment (line, arc or sinusoid), up to six obstacles, concave ones among
-/// them, up to two of which move with at most half of the robots' speed. Gaps between obstacles are at least two clearances, along
-/// the whole way of those that move; no robot begins within its stopping distance of a repulsive zone. Nothing where no place was
-/// found for the robots. Teams may be infeasible: see [`judge`](super::judge).
+/// The scenario of a seed: 2 to 20 robots at rest, one segment (line, arc, sinusoid, spline, Bezier curve or polyline), up to six
+/// obstacles, polygons, of which robots know the hulls; up to two of them move with at most half of the robots' speed. Gaps between
+/// obstacles are at least two clearances, along the whole way of those that move; no robot begins within its stopping distance of a
+/// repulsive zone. Nothing where no place was found for the robots. Teams may be infeasible: see [`judge`](super::judge).
 pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
+    team(seed, false)
+}
+
+/// As [`random_team`], but most obstacles are concave: L, U and crescents made of walls. Gaps are those between their hulls; robots may
+/// begin in their mouths, within the hulls, as far from the walls as others from obstacles.
+pub fn random_team_among_concave_obstacles(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
+    team(seed, true)
+}
+
+fn team(seed: u64, concave: bool) -> Option<ChainScenario<Hyperbolic>> {
     let mut chance = Chance(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let count = 2 + chance.below(19) as usize;
     let segment = Curve::new(&random_segment(&mut chance, count), false, false).ok()?;
-    let field = Field::random(&mut chance);
+    let field = Field::random(&mut chance, concave);
     let placed = Placed::new(&segment, Isometry2::identity());
     let team_goal = free_point(&placed, &field);
     let radii = Radii::new(0.4, 1.0, 7.0, 9.0, 10.0).ok()?;
     let starts = random_starts(&mut chance, count, &field, (&placed, team_goal, &radii))?;
-    let Field { obstacles, velocities } = field;
+    let Field { obstacles, velocities, .. } = field;
     Some(ChainScenario {
         segment,
         carriage: Carriage::parked(),
@@ -77,5 +88,8 @@ pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
 fn free_point(segment: &Placed<'_>, field: &Field) -> Vector2<f64> {
     let length = segment.curve().length();
     let points = (0..=100).map(|index| segment.at(length * (1.0 - f64::from(index) / 100.0)).point);
-    points.clone().find(|point| field.gap(*point, true, 0.0) >= CUT + 0.2).unwrap_or_else(|| segment.at(length).point)
+    points
+        .clone()
+        .find(|point| field.gap(*point, Boundary::Hull, true, 0.0) >= CUT + 0.2)
+        .unwrap_or_else(|| segment.at(length).point)
 }

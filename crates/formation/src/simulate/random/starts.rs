@@ -1,6 +1,6 @@
 //! Where the robots of a random team begin.
 use super::chance::Chance;
-use super::obstacles::Field;
+use super::obstacles::{Boundary, Field};
 use super::{CAPABILITY, CUT};
 use crate::Vector2;
 use crate::chain::{Robot, organise};
@@ -38,14 +38,20 @@ pub(super) fn random_starts(
     drawn
 }
 
-/// Places a metre apart and clear of all obstacles, in no order.
+/// Places a metre apart and clear of all obstacles, in no order; one of them in the mouth of a concave obstacle, where there is one wide
+/// enough.
 fn random_places(chance: &mut Chance, count: usize, field: &Field) -> Option<Vec<Vector2<f64>>> {
-    let (middle, half) = (chance.point(5.0), 3.0 + 0.35 * count as f64);
+    let half = 3.0 + 0.35 * count as f64;
     let stopping = CAPABILITY.speed * CAPABILITY.speed / (2.0 * CAPABILITY.acceleration);
     let mut places: Vec<Vector2<f64>> = Vec::with_capacity(count);
+    let mut middle = chance.point(5.0);
+    if let Some(mouth) = field.mouth(chance, CUT + stopping) {
+        places.push(mouth);
+        middle = mouth + chance.point(2.0);
+    }
     for _ in 0..1000 {
         let point = middle + chance.point(half);
-        let clear = field.gap(point, false, 2.0) > CUT + stopping;
+        let clear = field.gap(point, Boundary::Real, false, 2.0) > CUT + stopping;
         if clear && places.iter().all(|other| (other - point).norm() > 1.0) {
             places.push(point);
         }
