@@ -47,6 +47,39 @@ fn launch_scenarios_run_the_node_cores() {
     assert_eq!(summary["robots"].as_array().unwrap().len(), 4, "{summary}");
 }
 
+/// Scenarios of the thesis with obstacles and remedies: the same summary on one thread as on three.
+#[test]
+fn scenarios_of_the_thesis_are_the_same_on_any_number_of_threads() {
+    for file in ["config/scenarios/7.10_obstacles.yaml", "config/scenarios/7.14.yaml"] {
+        let [one, three] =
+            ["1", "3"].map(|threads| trench(&["sim", file, "--threads", threads, "--quiet", "--json"]).stdout);
+        assert!(!one.is_empty() && one == three, "{file}");
+    }
+}
+
+/// Teams that cannot do it run all the same, and are said to be such: on standard error, and in the JSON.
+#[test]
+fn infeasible_teams_are_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let check = |name: &str, old: &str, new: &str, kind: &str, expected: &str| {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/scenarios");
+        let text = std::fs::read_to_string(root.join(name)).unwrap();
+        assert_eq!(text.matches(old).count(), 1, "{old} must stand once in {name}");
+        let file = folder.path().join(name);
+        std::fs::write(&file, text.replace(old, new).replace("duration: 200.0", "duration: 1.0")).unwrap();
+        let output = trench(&["sim", file.to_str().unwrap(), "--quiet", "--json"]);
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && told.contains(expected), "{told}");
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(summary["infeasible"][0]["check"], kind, "{summary}");
+    };
+    let away = "{position: [-500.0, 529.7]";
+    check("6.5.yaml", "{position: [26.0026, 29.7094]", away, "connection", "connection: r2 begins");
+    check("7.10.yaml", "[100.0, 100.0]]", "[5.0, 5.0]]", "room", "4 places, but there are 10 robots");
+    let fine = trench(&["sim", "config/scenarios/7.12.yaml", "--quiet", "--json"]);
+    assert!(fine.stderr.is_empty() && String::from_utf8(fine.stdout).unwrap().contains("\"infeasible\": []"));
+}
+
 #[test]
 fn mistakes_are_told_with_their_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -121,9 +121,13 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     }
     let bag = arguments.bag.as_deref();
     let manner = scenario::Manner { bag, progress: !arguments.quiet, threads: arguments.threads.get() };
+    let infeasible = trench_check::infeasible(&arguments.file.display().to_string(), &scenario);
+    for verdict in &infeasible {
+        eprintln!("{}: {}: {} ({})", arguments.file.display(), verdict.check, verdict.finding, verdict.equation);
+    }
     let done = scenario::run(&scenario, &text, manner)?;
     write_csv(arguments, &done.run)?;
-    scenario::tell(&done.summary, arguments.json);
+    scenario::tell(&done.summary, &infeasible, arguments.json);
     Ok(0)
 }
 

@@ -27,7 +27,7 @@ pub use gaps::{Passing, gaps};
 pub use potential::potential;
 pub use queue::formation;
 pub use report::Report;
-pub use scenario::scenario;
+pub use scenario::{infeasible, scenario};
 pub use standing::Standing;
 pub use team::{Along, Start, Team, team};
 pub use verdict::Verdict;

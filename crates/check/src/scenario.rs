@@ -8,11 +8,17 @@ use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
 use trench_formation::curve::{Curve, Placed};
 use trench_formation::hull::Outline;
+use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
 use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
+use trench_formation::zoning::Radii;
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
+
+/// What decides whether a team can do it at all.
+const CONNECTION: &str = "connection";
+const ROOM: &str = "room";
 
 /// Trenches are looked at up to this distance, m.
 const RANGE: f64 = 100.0;
@@ -93,6 +99,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         }
         verdicts.push(room(subject, &[(0.0, curve.length())], chain.robots.len(), radii.rho_hat));
     }
+    verdicts.push(connection(subject, &radii, &chain.robots));
     verdicts
 }
 
@@ -119,7 +126,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
         verdicts.push(room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat));
     }
-    verdicts.push(connection(subject, task));
+    verdicts.push(connection(subject, &radii, &task.robots));
     verdicts
 }
 
@@ -162,23 +169,29 @@ fn room(subject: &str, fragments: &[(f64, f64)], robots: usize, rho_hat: f64) ->
     } else {
         format!("{on} have {places} places, but there are {robots} robots: lengthen the segment or move obstacles away")
     };
-    Verdict::new("room", subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
+    Verdict::new(ROOM, subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
+}
+
+/// What a team cannot do from where it begins: somebody is out of reach of its leader, or the segment has too few places.
+pub fn infeasible(subject: &str, task: &Scenario) -> Vec<Verdict> {
+    let mut verdicts = scenario(subject, task);
+    verdicts.retain(|verdict| !verdict.holds && [CONNECTION, ROOM].contains(&verdict.check));
+    verdicts
 }
 
 /// Whether every robot begins within reach of its leader.
-fn connection(subject: &str, task: &ChainScenario<AnyTrench>) -> Verdict {
-    let radii = task.zoning.radii();
-    let distance = |pair: &[trench_formation::kinematics::PointState]| (pair[1].position - pair[0].position).norm();
-    let longest = task.robots.windows(2).map(distance).fold(0.0, f64::max);
-    let lost = task.robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
+fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
+    let distance = |pair: &[PointState]| (pair[1].position - pair[0].position).norm();
+    let longest = robots.windows(2).map(distance).fold(0.0, f64::max);
+    let lost = robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
     let limit = number(radii.rho_bar);
     let finding = match lost {
         None => format!("no robot begins more than {} m from its leader, links reach {limit} m", number(longest)),
         Some(index) => format!(
             "r{} begins {} m from its leader, but links reach {limit} m: move it nearer, or order the chain anew",
             index + 2,
-            number(distance(&task.robots[index..index + 2]))
+            number(distance(&robots[index..index + 2]))
         ),
     };
-    Verdict::new("connection", subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
+    Verdict::new(CONNECTION, subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
 }

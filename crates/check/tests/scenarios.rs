@@ -66,6 +66,7 @@ fn chains_that_do_not_fit() {
         "{position: [-30.0, -1.0582]",
         &[("connection", "r10 begins 31.79")],
     );
+    check("6.5.yaml", "{position: [26.0026, 29.7094]", "{position: [-500.0, 529.7]", &[("connection", "r2 begins")]);
     check("7.10.yaml", "damping: 2.0", "damping: 1.0", &[("damping", "the chain whips")]);
     check(
         "9.2_bounded.yaml",

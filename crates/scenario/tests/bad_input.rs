@@ -73,6 +73,14 @@ fn robots() {
     check("7.10.yaml", first, "- {position: [27.8, 19.9]}", &["robots[1]", "r1 and r2", "zone 1"]);
     check("7.10_obstacles.yaml", first, "- {position: [30.2, 25.0]}", &["robots[0]", "inside obstacle 1"]);
     check("6.5.yaml", first, "- {position: [26.0, 29.7], velocty: [0, 0]}", &["velocty", "did you mean `velocity`?"]);
+    // Bodies of 0.5 m: one reaches into a disc of 1 m whose middle is 1.2 m away, though its own middle is outside; two of 2 m overlap.
+    check(
+        "9.2_bounded.yaml",
+        "- {position: [26.0026, 29.7094], velocity: [0.0153, 0.0056]}",
+        "- {position: [31.2, 25.0]}",
+        &["robots[0]", "reaches 0.3", "into obstacle 1"],
+    );
+    told("9.2_bounded.yaml", "body_radius: 0.5", "body_radius: 2.0", &["robots[2]", "two bodies need 4 m"]);
     let one = "- {position: [1.0, 9.0]}";
     check("7.11.yaml", &format!("robots:\n{one}"), "robots: []", &["robots", "is empty", "at least one"]);
     // r9 and r10 are lowest on the diagonal: a segment that begins farther up has no point of attraction for them.

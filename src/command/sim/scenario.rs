@@ -9,6 +9,7 @@ use std::fmt::{self, Display};
 use std::path::Path;
 use std::time::Instant;
 use trench_bag::run::Run;
+use trench_check::Verdict;
 use trench_scenario::{CaseSummary, Measures, Scenario, Simulation, Summary};
 
 mod messages;
@@ -61,10 +62,12 @@ pub(crate) fn run(scenario: &Scenario, text: &str, manner: Manner<'_>) -> Result
     Ok(Done { run: sink.finish()?, summary: measures.summary(scenario) })
 }
 
-/// Says how it went.
-pub(crate) fn tell(summary: &Summary, json: bool) {
+/// Says how it went, and what nobody could have made go well.
+pub(crate) fn tell(summary: &Summary, infeasible: &[Verdict], json: bool) {
     if json {
-        say(format_args!("{:#}\n", serde_json::json!(summary)));
+        let mut told = serde_json::json!(summary);
+        told["infeasible"] = serde_json::json!(infeasible);
+        say(format_args!("{told:#}\n"));
     } else {
         say(Told(summary));
     }

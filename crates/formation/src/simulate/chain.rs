@@ -49,9 +49,14 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
         scenario.check()?;
         let obstacles = scenario.combined(&scenario.obstacles)?;
         for (index, robot) in scenario.robots.iter().enumerate() {
-            let inside = |obstacle: &&Obstacle| obstacle.shape.outline().approach(robot.position).gap < 0.0;
-            if let Some(obstacle) = scenario.obstacles.iter().find(inside) {
-                return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id));
+            for obstacle in &scenario.obstacles {
+                let gap = obstacle.shape.outline().approach(robot.position).gap;
+                let reach = scenario.body_radius() - gap;
+                match gap {
+                    gap if gap < 0.0 => return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id)),
+                    _ if reach > 0.0 => return Err(ScenarioError::BodyInObstacle(index + 1, obstacle.id, reach)),
+                    _ => {}
+                }
             }
         }
         let count = scenario.robots.len();

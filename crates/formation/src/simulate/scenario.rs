@@ -85,6 +85,12 @@ pub enum ScenarioError {
     /// A robot that starts in an obstacle (to start in the hull of several is permitted).
     #[error("r{0} starts inside obstacle {1}: move one of them")]
     StartInObstacle(usize, u32),
+    /// A robot whose body overlaps an obstacle at the start, by so much, m.
+    #[error("the body of r{0} reaches {2:.4} m into obstacle {1} at the start: move one of them")]
+    BodyInObstacle(usize, u32, f64),
+    /// Two robots whose bodies overlap at the start, their distance and that at which they touch, m.
+    #[error("r{0} and r{1} start {2} m apart, but two bodies need {3} m: move one of them")]
+    BodiesOverlap(usize, usize, f64, f64),
     /// A goal, pose or velocity of the segment that is NaN or infinite.
     #[error("{0} is not finite: give numbers in SI units")]
     NotFinite(&'static str),
@@ -143,6 +149,11 @@ impl<T> ChainScenario<T> {
         let pieces = || self.obstacles.iter().zip(&self.options.walls);
         let wall = |id: u32| pieces().find(|(piece, _)| piece.id == id).and_then(|(_, wall)| *wall);
         combine_unless(obstacles, self.clearance, |a, b| wall(a).is_some_and(|of| wall(b) == Some(of)))
+    }
+
+    /// Of the robots' bodies, m; 0 where nothing names one.
+    pub(super) fn body_radius(&self) -> f64 {
+        self.options.safety.map_or(0.0, |safety| safety.radius)
     }
 
     /// Whether any obstacle moves.
@@ -214,13 +225,17 @@ impl<T> ChainScenario<T> {
         if let Some(index) = self.robots.iter().position(|robot| !finite(robot.position + robot.velocity)) {
             return Err(ScenarioError::RobotNotFinite(index + 1));
         }
-        let (near, mut neighbours) = (self.zoning.radii().rho_underbar, Neighbours::default());
-        neighbours.update(near, &self.robots, &[]);
+        let (near, touch) = (self.zoning.radii().rho_underbar, 2.0 * self.body_radius());
+        let mut neighbours = Neighbours::default();
+        neighbours.update(near.max(touch), &self.robots, &[]);
         for (index, robot) in self.robots.iter().enumerate() {
             for &other in neighbours.of(index).iter().take_while(|other| (**other as usize) < index) {
                 let distance = (robot.position - self.robots[other as usize].position).norm();
                 if distance <= near {
                     return Err(ScenarioError::StartInZoneOne(other as usize + 1, index + 1, distance));
+                }
+                if distance < touch {
+                    return Err(ScenarioError::BodiesOverlap(other as usize + 1, index + 1, distance, touch));
                 }
             }
         }

@@ -108,7 +108,10 @@ fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>
     if let Err(error) = ChainSimulation::new(scenario.clone()) {
         let text = error.to_string();
         return Err(match error {
-            ScenarioError::StartInZoneOne(_, rank, _) | ScenarioError::StartInObstacle(rank, _) => {
+            ScenarioError::StartInZoneOne(_, rank, _)
+            | ScenarioError::BodiesOverlap(_, rank, ..)
+            | ScenarioError::StartInObstacle(rank, _)
+            | ScenarioError::BodyInObstacle(rank, ..) => {
                 robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
             }
             ScenarioError::Integration(..) => map.error("method", text, "write semi_implicit_euler"),
