@@ -6,6 +6,7 @@ use crate::potential::potential;
 use crate::verdict::number;
 use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
+use trench_formation::agent::Method;
 use trench_formation::curve::{Curve, Placed};
 use trench_formation::hull::Outline;
 use trench_formation::kinematics::PointState;
@@ -121,6 +122,14 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
     }
     let whole = (0.0, task.segment.length());
     let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
+    if let Some(Method::Directed { direction: Some(towards), .. }) = task.options.method {
+        let towards = task.carriage.at(0.0).0.rotation * towards;
+        for (index, robot) in task.robots.iter().enumerate().skip(1) {
+            let (position, velocity) = (robot.position, robot.velocity);
+            let approach = Approach { position, velocity, direction: towards, damping: task.law.damping };
+            verdicts.push(direction(&format!("{subject}, r{}", index + 1), &placed, &approach));
+        }
+    }
     if let Ok(hulls) = task.combined(&task.obstacles) {
         let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);

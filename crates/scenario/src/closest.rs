@@ -83,7 +83,7 @@ mod tests {
             deviation: 0.0,
             misalignment: 0.0,
             effort: 0.0,
-            lyapunov: [0.0; 2],
+            lyapunov: None,
         }
     }
 

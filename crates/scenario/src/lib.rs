@@ -11,7 +11,7 @@ mod scenario;
 mod simulation;
 
 pub use law::{ChosenLaw, GoalLaw};
-pub use measures::{CaseSummary, Measures, ObstacleSummary, RobotSummary, Summary};
+pub use measures::{CaseSummary, LyapunovSummary, Measures, ObstacleSummary, RobotSummary, Summary};
 pub use read::{is_scenario, parse};
 pub use scenario::{
     Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating, RegulatingCase,

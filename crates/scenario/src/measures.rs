@@ -71,6 +71,19 @@ pub struct RobotSummary {
     pub resting_misalignment: Option<f64>,
     /// Integral of v^2 + omega^2 (Table 4.1).
     pub effort: Option<f64>,
+    /// The law's Lyapunov function (A.10, A.12, A.18, chapter 4) along the run, where it was asked.
+    pub lyapunov: Option<LyapunovSummary>,
+}
+
+/// A Lyapunov function along a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LyapunovSummary {
+    /// Its greatest value.
+    pub greatest: f64,
+    /// Its value at the end.
+    pub last: f64,
+    /// The greatest rate that the law gave it, 1/s: not above 0 where the stability argument holds.
+    pub greatest_rate: f64,
 }
 
 /// What is kept between steps.
@@ -79,6 +92,7 @@ pub struct Measures {
     seats: Vec<Seat>,
     last_away: Vec<f64>,
     leader_range: Vec<[f64; 2]>,
+    lyapunov: Vec<Option<LyapunovSummary>>,
     /// By case.
     closest: Vec<Closest>,
     /// By case: id of each obstacle and the least gap from it, m.
@@ -98,6 +112,7 @@ impl Measures {
             seats,
             last_away: vec![-1.0; count],
             leader_range: vec![[f64::INFINITY, 0.0]; count],
+            lyapunov: vec![None; count],
             closest: vec![Closest::default(); cases],
             gaps: vec![Vec::new(); cases],
             last_outside: vec![-1.0; cases],
@@ -112,6 +127,12 @@ impl Measures {
         for (index, (sample, seat)) in samples.iter().zip(&self.seats).enumerate() {
             if sample.deviation.is_nan() || sample.deviation > scenario.tolerance {
                 self.last_away[index] = time;
+            }
+            if let Some([last, rate]) = sample.lyapunov {
+                let before =
+                    self.lyapunov[index].unwrap_or(LyapunovSummary { greatest: last, last, greatest_rate: rate });
+                let (greatest, greatest_rate) = (before.greatest.max(last), before.greatest_rate.max(rate));
+                self.lyapunov[index] = Some(LyapunovSummary { greatest, last, greatest_rate });
             }
             if let Some(leader) = seat.leader {
                 let distance = (samples[leader].position - sample.position).norm();
@@ -178,6 +199,7 @@ impl Measures {
                     misalignment: is_unicycle.then_some(sample.misalignment),
                     resting_misalignment: resting(scenario, case, seat.rank),
                     effort: is_unicycle.then_some(sample.effort),
+                    lyapunov: self.lyapunov[index],
                 }
             })
             .collect();

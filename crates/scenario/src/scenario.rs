@@ -181,6 +181,8 @@ pub enum Drawing {
     Misalignments,
     /// Distance to the leader over time.
     LeaderDistances,
+    /// Value of each robot's Lyapunov function over time.
+    Lyapunov,
     /// Curvature of the path over time.
     Curvatures,
     /// Forward and turning speed and heading over time.

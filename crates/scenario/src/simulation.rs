@@ -54,8 +54,8 @@ pub struct Sample {
     pub misalignment: f64,
     /// Integral of v^2 + omega^2 (Table 4.1); 0 for double integrators.
     pub effort: f64,
-    /// V of the law and its rate.
-    pub lyapunov: [f64; 2],
+    /// V of the law and its rate; none where no law was asked.
+    pub lyapunov: Option<[f64; 2]>,
 }
 
 enum Running {
@@ -262,7 +262,7 @@ fn of_regulation(robot: &Regulation<ChosenLaw>) -> Sample {
         deviation: polar.distance,
         misalignment: polar.misalignment,
         effort: robot.effort(),
-        lyapunov: [lyapunov.value, lyapunov.rate],
+        lyapunov: Some([lyapunov.value, lyapunov.rate]),
     }
 }
 
@@ -290,6 +290,6 @@ fn of_point(robot: PointState, steered: Option<Steered>, goal: Option<Vector2<f6
         deviation,
         misalignment: 0.0,
         effort: 0.0,
-        lyapunov: steered.map_or([0.0; 2], |steered| [steered.lyapunov, steered.lyapunov_rate]),
+        lyapunov: steered.map(|steered| [steered.lyapunov, steered.lyapunov_rate]),
     }
 }

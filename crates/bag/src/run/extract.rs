@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use trench_core::RosTime;
 use trench_msgs::Message;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
-use trench_msgs::msg::{Assignment, Formation, Goals, RobotState, RunState, TeamState};
+use trench_msgs::msg::{Assignment, Formation, Goals, LeaderState, RobotState, RunState, TeamState};
 use trench_msgs::nav_msgs::Odometry;
 
 impl Run {
     /// Reads a run out of a bag. Poses are those of `/ground_truth/<robot>/odom` where the bag has them, else those
-    /// of `/team_state`; goals, formation, assignment and the beginning come from the topics of their names.
+    /// of `/team_state`; goals, formation, assignment and the beginning come from the topics of their names, V from leader states.
     ///
     /// # Errors
     /// When the bag cannot be read. Messages that cannot are counted in [`Run::undecodable`].
@@ -50,6 +50,7 @@ enum Role {
     Formation,
     Assignment,
     RunState,
+    LeaderState,
     Scenario,
     Other,
 }
@@ -64,6 +65,7 @@ impl Role {
             ("/run_state", "trench_msgs/msg/RunState") => Self::RunState,
             ("/scenario", "std_msgs/msg/String") => Self::Scenario,
             ("/ground_truth/contacts", "diagnostic_msgs/msg/DiagnosticArray") => Self::Contacts,
+            (name, "trench_msgs/msg/LeaderState") if name.ends_with("/leader_state") => Self::LeaderState,
             (name, "nav_msgs/msg/Odometry") => {
                 let robot = name.strip_prefix("/ground_truth/").and_then(|rest| rest.strip_suffix("/odom"));
                 robot.map_or(Self::Other, |robot| Self::GroundTruth(robot.to_owned()))
@@ -81,6 +83,7 @@ pub struct RunBuilder {
     truth: BTreeMap<String, Vec<(i64, Pose)>>,
     estimates: BTreeMap<String, Vec<(i64, Pose)>>,
     goals: BTreeMap<String, Vec<(i64, GoalSample)>>,
+    lyapunov: BTreeMap<String, Vec<(i64, f64)>>,
     contacts: Vec<(i64, ContactSample)>,
     /// Whether ground truth is passed over.
     leaves_out_truth: bool,
@@ -144,6 +147,11 @@ impl RunBuilder {
                 }
                 self.run.state = Some(state);
             }
+            Role::LeaderState => {
+                let state = LeaderState::decode(message).ok()?;
+                let sample = (RosTime::from(&state.header.stamp).0, state.lyapunov);
+                self.lyapunov.entry(state.robot).or_default().push(sample);
+            }
             Role::Other => {}
         }
         Some(())
@@ -152,7 +160,7 @@ impl RunBuilder {
     /// The run, its times counted from t0.
     #[must_use]
     pub fn finish(self) -> Run {
-        let Self { mut run, truth, estimates, goals, mut contacts, .. } = self;
+        let Self { mut run, truth, estimates, goals, lyapunov, mut contacts, .. } = self;
         run.is_ground_truth = !truth.is_empty();
         let poses = if truth.is_empty() { estimates } else { truth };
         let first = poses.values().filter_map(|poses| poses.iter().map(|(stamp, _)| *stamp).min()).min();
@@ -165,6 +173,11 @@ impl RunBuilder {
         for (robot, goals) in goals {
             let track = run.robots.entry(robot).or_default();
             track.goals = goals.into_iter().map(|(stamp, goal)| GoalSample { time: seconds(stamp), ..goal }).collect();
+        }
+        for (robot, values) in lyapunov {
+            if let Some(track) = run.robots.get_mut(&robot) {
+                track.lyapunov = values.into_iter().map(|(stamp, value)| (seconds(stamp), value)).collect();
+            }
         }
         contacts.sort_by_key(|(stamp, _)| *stamp);
         let timed = |(stamp, contact)| ContactSample { time: seconds(stamp), ..contact };

@@ -69,6 +69,8 @@ pub struct Track {
     pub poses: Vec<Pose>,
     /// Its goal points.
     pub goals: Vec<GoalSample>,
+    /// Value of its law's Lyapunov function, by time (s); nothing where it says none (tables have none).
+    pub lyapunov: Vec<(f64, f64)>,
 }
 
 impl Track {
@@ -78,6 +80,8 @@ impl Track {
         self.poses.dedup_by(|a, b| a.time == b.time);
         self.goals.sort_by(|a, b| a.time.total_cmp(&b.time));
         self.goals.dedup_by(|a, b| a.time == b.time);
+        self.lyapunov.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.lyapunov.dedup_by(|a, b| a.0 == b.0);
     }
 
     /// First and last time of a pose, s.

@@ -179,7 +179,7 @@ fn goals_that_go_on_with_a_target_have_no_resting_place() {
         let track = |name: &str, y: f64| {
             let pose = |time: f64| Pose { time, x: 0.1 * time, y, ..Pose::default() };
             let goals = vec![goal(name, 0.0, 0.1, remaining), goal(name, 5.0, 0.1, remaining)];
-            (name.to_owned(), Track { poses: vec![pose(0.0), pose(10.0)], goals })
+            (name.to_owned(), Track { poses: vec![pose(0.0), pose(10.0)], goals, ..Track::default() })
         };
         Run { robots: [track("a", 0.0), track("b", 1.25)].into(), ..Run::default() }
     };

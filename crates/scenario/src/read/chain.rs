@@ -5,6 +5,7 @@ use crate::scenario::{Directed, Task, Timing};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::Vector2;
+use trench_formation::agent::Method;
 use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{CurveShape, Placed};
 use trench_formation::hull::{Obstacle, Outline, Shape};
@@ -87,6 +88,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         encroaching: encroaching(map)?,
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
         options: Options {
+            method: map.opt_map("directed")?.map(|map| along_directions(&map)).transpose()?,
             limits,
             safety: safety(map, limits)?,
             sidesteps: map.get_or("sidesteps", false)?,
@@ -261,6 +263,14 @@ fn limits(map: &Map<'_>) -> Result<Capability, ConfigError> {
     let limits = Capability { speed: positive(map, "speed")?, acceleration: positive(map, "acceleration")? };
     map.finish()?;
     Ok(limits)
+}
+
+/// Law (6.1) instead of (7.13): in a direction of the segment's frame, or across the segment.
+fn along_directions(map: &Map<'_>) -> Result<Method, ConfigError> {
+    let direction = map.opt_f64("direction")?.map(|angle| Vector2::new(libm::cos(angle), libm::sin(angle)));
+    let method = Method::Directed { direction, compensates: map.get_or("compensates", true)? };
+    map.finish()?;
+    Ok(method)
 }
 
 /// How far robots see.

@@ -5,12 +5,13 @@ use trench_config::yaml::Node;
 use trench_config::{ConfigError, did_you_mean};
 use trench_formation::stability::{C1, C2, TwoGainLaw};
 
-const DRAWINGS: [(&str, Drawing); 14] = [
+const DRAWINGS: [(&str, Drawing); 15] = [
     ("trajectories", Drawing::Trajectories),
     ("snapshots", Drawing::Snapshots),
     ("errors", Drawing::Errors),
     ("misalignments", Drawing::Misalignments),
     ("leader_distances", Drawing::LeaderDistances),
+    ("lyapunov", Drawing::Lyapunov),
     ("curvatures", Drawing::Curvatures),
     ("speeds", Drawing::Speeds),
     ("sine_integrals", Drawing::SineIntegrals),

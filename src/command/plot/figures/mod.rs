@@ -36,6 +36,7 @@ pub(super) fn draw(figure: &Figure, scenario: &Scenario, run: &Run) -> Picture {
         Drawing::Speeds => super::speeds::draw(run, (0.0, end)),
         Drawing::Errors => over_time(figure, &selection, "distance (m)", &[], goal_distance),
         Drawing::Misalignments => over_time(figure, &selection, "phi (rad)", &[], misalignment),
+        Drawing::Lyapunov => over_time(figure, &selection, "V", &[], |robot| robot.track.lyapunov.clone()),
         Drawing::Curvatures => over_time(figure, &selection, "curvature (1/m)", &[], curvature),
         Drawing::LeaderDistances => {
             let levels = scenario.zoning().map_or(Vec::new(), |zoning| {

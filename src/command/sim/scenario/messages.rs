@@ -76,6 +76,7 @@ impl<'a> Publisher<'a> {
     }
 
     fn leader_state(&self, header: &Header, seat: &Seat, sample: &Sample) -> LeaderState {
+        let [lyapunov, lyapunov_rate] = sample.lyapunov.unwrap_or_default();
         LeaderState {
             header: header.clone(),
             robot: seat.name.clone(),
@@ -90,8 +91,8 @@ impl<'a> Publisher<'a> {
             goal_distance: sample.goal.map_or(0.0, |goal| (goal - sample.position).norm()),
             segment_distance: if sample.deviation.is_finite() { sample.deviation } else { 0.0 },
             conforms: sample.deviation <= self.scenario.tolerance,
-            lyapunov: sample.lyapunov[0],
-            lyapunov_rate: sample.lyapunov[1],
+            lyapunov,
+            lyapunov_rate,
             ..LeaderState::default()
         }
     }
