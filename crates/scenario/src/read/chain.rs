@@ -96,7 +96,6 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
             walls: listed.walls,
             sight: map.opt_map("sight")?.map(|map| sight(&map)).transpose()?,
             integration: timing.integration,
-            ..Options::default()
         },
         step: timing.step,
         steps_per_tick: map.get_or("steps_per_tick", 1)?,
