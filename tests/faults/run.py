@@ -37,7 +37,7 @@ def seeds(text: str) -> list[int]:
 
 
 def sampled(runs: list[dict], turn: int) -> list[Job]:
-    """The next of all runs by turns, and with all of them the next seed."""
+    """The next of these runs by turns, and after all of them the next seed."""
     places = [SAMPLE * turn + place for place in range(SAMPLE)]
     return [Job(runs[place % len(runs)], 1 + place // len(runs) % SEEDS) for place in places]
 
@@ -45,7 +45,7 @@ def sampled(runs: list[dict], turn: int) -> list[Job]:
 def chosen(runs: list[dict], arguments: argparse.Namespace) -> list[Job]:
     """The runs that the command line asks for, each with a seed."""
     if arguments.sample:
-        return sampled([run for run in runs if not run.get("alone")], int(time.time()) // TURN)
+        return sampled([run for run in runs if run.get("sample")], int(time.time()) // TURN)
     picked = []
     for name in arguments.names:
         found = [run for run in runs if name == run["name"] or any(name == fault["name"] for fault in run["faults"])]
