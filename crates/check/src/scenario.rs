@@ -6,6 +6,7 @@ use crate::potential::potential;
 use crate::verdict::number;
 use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
+use trench_formation::Vector2;
 use trench_formation::agent::Method;
 use trench_formation::curve::{Curve, Placed};
 use trench_formation::hull::Outline;
@@ -16,10 +17,6 @@ use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_formation::zoning::Radii;
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
-
-/// What decides whether a team can do it at all.
-const CONNECTION: &str = "connection";
-const ROOM: &str = "room";
 
 /// Trenches are looked at up to this distance, m.
 const RANGE: f64 = 100.0;
@@ -88,19 +85,10 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         chain_damping(subject, chain.law.damping, chain.law.leader_damping),
     ];
     if let Ok(curve) = Curve::new(&task.segment, false, false) {
-        let placed = Placed::new(&curve, Default::default());
-        for (index, (robot, towards)) in chain.robots.iter().zip(&chain.directions).enumerate().skip(1) {
-            let approach = Approach {
-                position: robot.position,
-                velocity: robot.velocity,
-                direction: *towards,
-                damping: chain.law.damping,
-            };
-            verdicts.push(direction(&format!("{subject}, r{}", index + 1), &placed, &approach));
-        }
-        verdicts.push(room(subject, &[(0.0, curve.length())], chain.robots.len(), radii.rho_hat));
+        let robots = chain.robots.iter().zip(chain.directions.iter().copied());
+        verdicts.extend(directions(subject, &Placed::new(&curve, Default::default()), robots, chain.law.damping));
     }
-    verdicts.push(connection(subject, &radii, &chain.robots));
+    verdicts.extend(feasibility_of_directed(subject, task));
     verdicts
 }
 
@@ -120,23 +108,58 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
     if !task.obstacles.is_empty() {
         verdicts.push(clearance(subject, task, body));
     }
-    let whole = (0.0, task.segment.length());
-    let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
     if let Some(Method::Directed { direction: Some(towards), .. }) = task.options.method {
-        let towards = task.carriage.at(0.0).0.rotation * towards;
-        for (index, robot) in task.robots.iter().enumerate().skip(1) {
-            let (position, velocity) = (robot.position, robot.velocity);
-            let approach = Approach { position, velocity, direction: towards, damping: task.law.damping };
-            verdicts.push(direction(&format!("{subject}, r{}", index + 1), &placed, &approach));
-        }
+        let frame = task.carriage.at(0.0).0;
+        let robots = task.robots.iter().map(|robot| (robot, frame.rotation * towards));
+        verdicts.extend(directions(subject, &Placed::new(&task.segment, frame), robots, task.law.damping));
     }
-    if let Ok(hulls) = task.combined(&task.obstacles) {
+    verdicts.extend(feasibility_of_nearest(subject, task));
+    verdicts
+}
+
+/// Whether each follower has a point of attraction in its direction.
+fn directions<'a>(
+    subject: &str,
+    segment: &Placed<'_>,
+    robots: impl Iterator<Item = (&'a PointState, Vector2<f64>)>,
+    damping: f64,
+) -> Vec<Verdict> {
+    let of = |(index, (robot, towards)): (usize, (&PointState, Vector2<f64>))| {
+        let approach = Approach { position: robot.position, velocity: robot.velocity, direction: towards, damping };
+        direction(&format!("{subject}, r{}", index + 1), segment, &approach)
+    };
+    robots.enumerate().skip(1).map(of).collect()
+}
+
+/// What a team cannot do from where it begins: somebody is out of reach of its leader, or the segment has too few places. Nothing else is
+/// looked at.
+pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
+    let mut verdicts = match &scenario.task {
+        Task::Directed(task) => feasibility_of_directed(subject, task),
+        Task::Nearest(task, _) => feasibility_of_nearest(subject, task),
+        Task::Regulating(_) | Task::GoalTracking(_) | Task::Launch(_) => Vec::new(),
+    };
+    verdicts.retain(|verdict| !verdict.holds);
+    verdicts
+}
+
+fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
+    let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
+    let curve = Curve::new(&task.segment, false, false).ok();
+    let room = curve.map(|curve| room(subject, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
+    room.into_iter().chain([connection(subject, radii, robots)]).collect()
+}
+
+fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
+    let (radii, whole) = (task.zoning.radii(), (0.0, task.segment.length()));
+    let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
+    let hulls = task.combined(&task.obstacles).ok();
+    let room = hulls.map(|hulls| {
         let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
-        verdicts.push(room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat));
-    }
-    verdicts.push(connection(subject, &radii, &task.robots));
-    verdicts
+        room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat)
+    });
+    room.into_iter().chain([connection(subject, radii, &task.robots)]).collect()
 }
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
@@ -178,14 +201,7 @@ fn room(subject: &str, fragments: &[(f64, f64)], robots: usize, rho_hat: f64) ->
     } else {
         format!("{on} have {places} places, but there are {robots} robots: lengthen the segment or move obstacles away")
     };
-    Verdict::new(ROOM, subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
-}
-
-/// What a team cannot do from where it begins: somebody is out of reach of its leader, or the segment has too few places.
-pub fn infeasible(subject: &str, task: &Scenario) -> Vec<Verdict> {
-    let mut verdicts = scenario(subject, task);
-    verdicts.retain(|verdict| !verdict.holds && [CONNECTION, ROOM].contains(&verdict.check));
-    verdicts
+    Verdict::new("room", subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
 }
 
 /// Whether every robot begins within reach of its leader.
@@ -202,5 +218,5 @@ fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
             number(distance(&robots[index..index + 2]))
         ),
     };
-    Verdict::new(CONNECTION, subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
+    Verdict::new("connection", subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
 }

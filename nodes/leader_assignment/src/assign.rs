@@ -43,8 +43,8 @@ impl LeaderAssignment {
         if formation.hash != self.held.message.hash || robots != self.held.robots {
             // Another one was asked for during the run. Those of the library have motion besides what a message tells.
             let known = self.settings.library.iter().filter(|plan| plan.name == formation.name);
-            let sized = known.filter_map(|plan| Held::at_scale(plan, scale, robots.clone()).ok());
-            let held = sized.into_iter().find(|held| held.message.hash == formation.hash);
+            let mut sized = known.filter_map(|plan| Held::at_scale(plan, scale, robots.clone()).ok());
+            let held = sized.find(|held| held.message.hash == formation.hash);
             let told = || plan_from_message(&formation).ok().map(|plan| Held::new(plan, robots.clone()));
             self.held = held.or_else(told)?;
         }

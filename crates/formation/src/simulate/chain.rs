@@ -52,10 +52,11 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             for obstacle in &scenario.obstacles {
                 let gap = obstacle.shape.outline().approach(robot.position).gap;
                 let reach = scenario.body_radius() - gap;
-                match gap {
-                    gap if gap < 0.0 => return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id)),
-                    _ if reach > 0.0 => return Err(ScenarioError::BodyInObstacle(index + 1, obstacle.id, reach)),
-                    _ => {}
+                if gap < 0.0 {
+                    return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id));
+                }
+                if reach > 0.0 {
+                    return Err(ScenarioError::BodyInObstacle(index + 1, obstacle.id, reach));
                 }
             }
         }
