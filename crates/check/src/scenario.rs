@@ -1,6 +1,7 @@
-//! A scenario file: gains, potentials, zones, directions of attraction, room.
+//! A scenario file: gains, potentials, zones, directions of attraction, room, chains.
 
 use crate::controller::chain_damping;
+use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::potential::potential;
 use crate::verdict::number;
@@ -89,6 +90,8 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         verdicts.extend(directions(subject, &Placed::new(&curve, Default::default()), robots, chain.law.damping));
     }
     verdicts.extend(feasibility_of_directed(subject, task));
+    let damping = chain.law.damping + chain.law.leader_damping;
+    verdicts.extend(growth_at_rest(subject, "(6.1)", (&chain.law.trench, damping), &radii, chain.robots.len()));
     verdicts
 }
 
@@ -114,6 +117,8 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
         verdicts.extend(directions(subject, &Placed::new(&task.segment, frame), robots, task.law.damping));
     }
     verdicts.extend(feasibility_of_nearest(subject, task));
+    let damping = task.law.damping + task.law.leader_damping;
+    verdicts.extend(growth_at_rest(subject, "(7.13)", (&task.law.trench, damping), &radii, task.robots.len()));
     verdicts
 }
 

@@ -28,7 +28,8 @@ fn parameters() -> Vec<ParameterDescriptor> {
         ParameterDescriptor::integer("bytes", 12, "length of a message: a stamp and zeros")
             .range(12.0, 1.0e7)
             .read_only(),
-        ParameterDescriptor::double("rate", 200.0, "messages a second").range(1.0, 1.0e7).read_only(),
+        ParameterDescriptor::double("rate", 200.0, "wake-ups of the source a second").range(1.0, 1.0e7).read_only(),
+        ParameterDescriptor::integer("burst", 1, "messages at each wake-up").range(1.0, 1.0e4).read_only(),
         ParameterDescriptor::integer(
             "skip",
             0,
@@ -61,6 +62,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     Ok(Box::new(Latency {
         interface,
         period,
+        burst: parameters.usize("burst")?,
         next,
         message: vec![0; bytes],
         skip: parameters.usize("skip")?,
@@ -73,6 +75,7 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
 struct Latency {
     interface: Interface,
     period: f64,
+    burst: usize,
     next: Option<Steady>,
     message: Vec<u8>,
     skip: usize,
@@ -84,8 +87,8 @@ struct Latency {
 
 impl Latency {
     /// A CDR message that begins with the time: what else is in it matters to nobody.
-    fn say(&mut self, at: Times, sink: &mut dyn Sink) {
-        let stamp = at.steady.0.to_le_bytes();
+    fn say(&mut self, at: Steady, sink: &mut dyn Sink) {
+        let stamp = at.0.to_le_bytes();
         let message = &mut self.message;
         message[..4].copy_from_slice(&[0, 1, 0, 0]);
         message[4..12].copy_from_slice(&stamp);
@@ -122,7 +125,9 @@ impl NodeCore for Latency {
     fn handle(&mut self, at: Times, event: Event<'_>, sink: &mut dyn Sink) {
         match event {
             Event::Wakeup => {
-                self.say(at, sink);
+                for _ in 0..self.burst {
+                    self.say(at.steady, sink);
+                }
                 self.next = Some(at.steady.plus_seconds(self.period));
             }
             Event::Message { cdr, .. } => self.measure(at, cdr, sink),
