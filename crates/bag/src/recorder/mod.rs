@@ -100,9 +100,9 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
     }))
 }
 
-/// Messages of a topic that may come before the next batch is written: four seconds of poses, should the recorder be kept from its
-/// work so long. The network keeps as many of every topic for good, which is what its memory grows to.
-const DEPTH: usize = 128;
+/// Messages of a topic that may come before the next batch is written: eight seconds of poses, should the recorder be kept from its
+/// work so long.
+const DEPTH: usize = 256;
 
 /// Small messages wait for the next batch.
 fn without_waking(subscribe: Subscribe) -> Subscribe {

@@ -11,6 +11,7 @@ on_every_network! {
     a_reader_that_restarts_goes_on_without_copies_or_gaps
     messages_that_do_not_wake_come_with_the_next_event
     a_foreign_type_is_reported_and_not_read
+    memory_does_not_grow_with_what_was_heard
 }
 
 /// Sequence numbers and texts of the listener's next lines.
@@ -148,4 +149,23 @@ fn a_foreign_type_is_reported_and_not_read(network: Network) {
     let _talker = island.start("talker", "--ros-args -p rate:=50.0");
     let (sequence, text) = parse(&listener.line());
     assert_eq!(sequence, text, "a message of the right type");
+}
+
+/// Over the network, where others keep messages for us. Five thousand of 2 kB are 10 MB.
+fn memory_does_not_grow_with_what_was_heard(network: Network) {
+    let island = network.island(16);
+    let listener = island.start("listener", "");
+    let _talker = island.start("talker", "--ros-args -p rate:=1000.0 -p padding:=2000 -p local:=network");
+    heard(&listener, 500);
+    let before = resident(&listener);
+    heard(&listener, 5000);
+    let grown = resident(&listener).saturating_sub(before);
+    assert!(grown < 4_000_000, "the listener grew by {grown} bytes");
+}
+
+/// Bytes of memory that a process holds.
+fn resident(process: &Running) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", process.child.id())).unwrap();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
+    1024 * line.trim().trim_end_matches(" kB").parse::<u64>().unwrap()
 }

@@ -4,9 +4,10 @@ use rustdds::qos::policy;
 use rustdds::{Duration, QosPolicies, QosPolicyBuilder};
 use trench_core::{Durability, Qos, Reliability};
 
-/// Samples that wait in the reader's cache until the event loop takes them. More than any burst that a node of a team
-/// sends between two turns of the loop: RustDDS drops the oldest ones beyond it.
-const UNREAD: i32 = 4096;
+/// Samples that wait in the reader's cache until the event loop takes them, at least: eight seconds of poses, or a tenth of a second of
+/// the fastest. RustDDS drops the oldest ones beyond it, and keeps those that were taken as well: a process's memory grows to so
+/// many of every topic that it hears.
+const UNREAD: i32 = 256;
 
 /// What a writer offers. A write never blocks (zero blocking time): what does not fit the send window waits in the
 /// writer's own queue.
@@ -46,9 +47,9 @@ pub(crate) fn offered(policies: &QosPolicies) -> Qos {
 }
 
 /// What a reader asks for. The history is the cache between RustDDS's thread and the event loop, not a ROS queue, hence
-/// deeper than `qos.depth`.
+/// mostly deeper than `qos.depth`.
 pub(crate) fn reader(qos: Qos) -> QosPolicies {
-    common(qos).history(policy::History::KeepLast { depth: UNREAD }).build()
+    common(qos).history(policy::History::KeepLast { depth: depth(qos).max(UNREAD) }).build()
 }
 
 /// Requests and responses of services, as ROS 2's default for services.
