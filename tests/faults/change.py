@@ -1,6 +1,6 @@
 """Asks for other formations, on whichever host it runs: one request a line of standard input, one answer a line of standard output.
 
-A request is a JSON object of what ~/set_formation takes, `scale` or `robots`; the answer how long it took until it was granted, s, or null.
+A request is a JSON object of what ~/set_formation takes, `scale` or `robots`; the answer whether it was granted, true or false.
 """
 
 import json
@@ -16,19 +16,19 @@ PATIENCE, ANSWER = 8.0, 0.8
 AGAIN = 0.2
 
 
-def ask(node, client, request: dict) -> float | None:
-    """Until it is granted."""
+def ask(node, client, request: dict) -> bool:
+    """Until it is granted, or patience is at its end."""
     began = time.monotonic()
     while time.monotonic() < began + PATIENCE:
         if client.wait_for_service(timeout_sec=ANSWER):
             answer = client.call_async(SetFormation.Request(**request))
             rclpy.spin_until_future_complete(node, answer, timeout_sec=ANSWER)
             if answer.done() and answer.result().success:
-                return time.monotonic() - began
+                return True
             client.remove_pending_request(answer)
             print(f"{request}: {answer.result().message if answer.done() else 'no answer'}", file=sys.stderr, flush=True)
         time.sleep(AGAIN)
-    return None
+    return False
 
 
 def main() -> None:

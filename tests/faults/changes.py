@@ -28,7 +28,7 @@ class Changes:
         """Waits for the answer."""
         self.process.stdin.write(json.dumps(request) + "\n")
         self.process.stdin.flush()
-        if json.loads(self.process.stdout.readline() or "null") is None:
+        if not json.loads(self.process.stdout.readline() or "false"):
             self.problems.append(f"nobody granted {request}")
 
     def begin(self, t0: float) -> None:

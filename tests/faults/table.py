@@ -1,8 +1,8 @@
-"""docs/FAULTS.md from the results of the runs of the matrix."""
+"""docs/FAULTS.md from the results of the runs of the matrix: those that are kept beside it, and those of this machine."""
 
 from pathlib import Path
 
-import verdict
+import history
 from judge import REPORTERS
 
 HEAD = """# Faults
@@ -31,42 +31,37 @@ the worst of all seeds that were run:
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the
   next fault begins.
 
-Rows dated before 2026-11-26 21:10 were judged by milder rules: 0.6 s on old information, exits and diagnostics less strictly.
+The table is made of [faults.jsonl](faults.jsonl), where each run stands with its seed and the commit that was tried; which commits a row is of is
+said behind its date.
 
 Runs named *hosts* have the base station and each robot's controller on hosts of their own (network namespaces), by DDS on
 one network, or by Zenoh through a router between two ([hosts.md](hosts.md)); in *hosts-radio* the bridge alone is on a host of its own,
 with somebody who looks through a camera, and commands count as old as they are there.
 
-| fault | run | diagnostic, s | still, s | rest, s | driven, s | formed, s | verdict | seeds | date (UTC) |
+| fault | run | diagnostic, s | still, s | rest, s | driven, s | formed, s | verdict | seeds | date (UTC), commits |
 |---|---|---|---|---|---|---|---|---|---|
 """
 
 
 def write(runs: list[dict], results: Path, page: Path) -> None:
-    """Writes the page; what was not run here stays as it was."""
-    before = rows(page)
+    """Writes the page, and beside it what it is made of."""
+    told = history.merged(runs, results, page.with_name("faults.jsonl"))
     lines = []
     for run in runs:
-        folder = results / run["name"]
-        documents = [verdict.read(seed) for seed in sorted(folder.glob("[0-9]*")) if is_alone(seed)]
-        beside = [verdict.read(seed) for seed in sorted(folder.glob(f"*{verdict.IN_COMPANY}"))]
-        date = max((document["date"] for document in documents), default="-")
+        documents = [document for document in told if document["run"] == run["name"]]
+        alone = [document for document in documents if not document["in_company"]]
+        beside = [document for document in documents if document["in_company"]]
         for fault in run["faults"]:
-            met, failed_beside = of(fault, documents), [told for told in of(fault, beside) if told["problems"]]
+            met, failed_beside = of(fault, alone), [told for told in of(fault, beside) if told["problems"]]
             unknown = f"| {fault['name']} | {run['name']} | | | | | | not run | | - |"
-            lines.append(row(fault, run, met, failed_beside, date) if met else before.get(fault["name"], unknown))
+            lines.append(row(fault, run, met, failed_beside, stamp(alone)) if met else unknown)
     page.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
 
 
-def rows(page: Path) -> dict[str, str]:
-    """The rows of the page by their fault."""
-    lines = page.read_text(encoding="utf-8").splitlines() if page.exists() else []
-    return {line.split("|")[1].strip(): line for line in lines if line.startswith("| ")}
-
-
-def is_alone(folder: Path) -> bool:
-    """Whether these are the results that count."""
-    return folder.name.isdigit() and (folder / "verdicts.json").exists()
+def stamp(documents: list[dict]) -> str:
+    """The newest date, and all commits."""
+    commits = dict.fromkeys(document["commit"] for document in documents)
+    return ", ".join([max(document["date"] for document in documents), *commits])
 
 
 def of(fault: dict, documents: list[dict]) -> list[dict]:
@@ -74,7 +69,7 @@ def of(fault: dict, documents: list[dict]) -> list[dict]:
     return [told for document in documents for told in document["verdicts"] if told["fault"] == fault["name"]]
 
 
-def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date: str) -> str:
+def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], stamp: str) -> str:
     """What came of a fault in all runs in which it was met."""
     by = f" ({fault['says']})" if fault.get("says") in REPORTERS else ""
     says = worst(met, "diagnosed") + by if "unnamed" not in fault else f"none: {fault['unnamed']}"
@@ -84,7 +79,7 @@ def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], date
     result = f"**fails**: {briefly(failed[0]['problems'])}" if failed else "pass"
     result += f" ({'; '.join(notes)})" if notes else ""
     cells = [fault["name"], run["name"], says, *(worst(met, key) for key in ("stood", "rested", "recovered", "formed"))]
-    return f"| {' | '.join(cells)} | {result} | {len(met) - len(failed)} of {len(met)} | {date} |"
+    return f"| {' | '.join(cells)} | {result} | {len(met) - len(failed)} of {len(met)} | {stamp} |"
 
 
 def briefly(problems: list[str]) -> str:

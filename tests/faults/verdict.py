@@ -2,6 +2,7 @@
 
 import datetime
 import json
+import subprocess
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -37,10 +38,16 @@ class Verdict:
 def write(folder: Path, seed: int, verdicts: list[Verdict]) -> None:
     """Keeps what came of a run."""
     date = datetime.datetime.now(datetime.UTC).strftime("%F %H:%M")
-    document = {"date": date, "seed": seed, "verdicts": [asdict(verdict) for verdict in verdicts]}
+    document = {"date": date, "seed": seed, "commit": commit(), "verdicts": [asdict(verdict) for verdict in verdicts]}
     (folder / "verdicts.json").write_text(json.dumps(document, indent=1), encoding="utf-8")
 
 
+def commit() -> str:
+    """The commit that is tried, with a plus where files of it were changed; nothing outside of a repository."""
+    describe = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--exclude=*", "--dirty=+"]
+    return subprocess.run(describe, capture_output=True, text=True, check=False).stdout.strip()
+
+
 def read(folder: Path) -> dict:
-    """What came of a run: date, seed, verdicts."""
+    """What came of a run: date, seed, commit, verdicts."""
     return json.loads((folder / "verdicts.json").read_text(encoding="utf-8"))

@@ -30,10 +30,10 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
         }
         Task::GoalTracking(task) => {
             let laws = task.cases.iter().filter_map(|case| match &case.law {
-                GoalLaw::Trench(law) => Some((named(subject, &case.name), law)),
+                GoalLaw::Trench(law) => Some((named(subject, &case.name), law, case.bounds)),
                 GoalLaw::Conventional(_) | GoalLaw::Velocity(_) => None,
             });
-            laws.flat_map(|(name, law)| {
+            laws.flat_map(|(name, law, bounds)| {
                 let (finding, holds) = match law.damping {
                     AnyDamping::Constant(damping) => {
                         (format!("k = {}: V' = -k |r'|^2", number(damping.coefficient)), damping.coefficient > 0.0)
@@ -46,10 +46,12 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                         damping.alpha > 0.0,
                     ),
                 };
-                [
-                    potential(&name, &law.trench, RANGE),
-                    Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)"),
-                ]
+                let damped = Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)");
+                let able = bounds.map(|bounds| {
+                    let largest = Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0 };
+                    of_scenario(&name, &largest, &bounds.limits)
+                });
+                [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able)
             })
             .collect()
         }
@@ -169,9 +171,14 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
-    let trench = check_admissibility(&task.law.trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
+    let trench = steepest(&task.law.trench);
     of_scenario(subject, &Largest { trench, zones: task.zoning.full_acceleration(), obstacles }, limits)
+}
+
+/// The largest slope of a trench; infinite of one that is not admissible.
+fn steepest(trench: &AnyTrench) -> f64 {
+    check_admissibility(trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant)
 }
 
 /// Radius of the robots' bodies, where the scenario says one.

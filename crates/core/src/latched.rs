@@ -1,16 +1,20 @@
 //! The last word of each publisher of a latched topic.
 
+use std::cmp::Ordering;
+
 /// A latched topic is said once and stays said: who speaks later, and may be a stranger, must not make it unsaid. So each
 /// publisher's last word is kept, and the reader chooses by what else it hears.
 #[derive(Debug, Clone)]
 pub struct Latched<T> {
     /// The one that spoke last comes last.
     words: Vec<([u8; 16], T)>,
+    /// Whose word was of the epoch in force, or of one before, when [`Self::follow`] was asked last.
+    followed: Option<[u8; 16]>,
 }
 
 impl<T> Default for Latched<T> {
     fn default() -> Self {
-        Self { words: Vec::new() }
+        Self { words: Vec::new(), followed: None }
     }
 }
 
@@ -35,6 +39,23 @@ impl<T> Latched<T> {
     /// The word with the largest key, of equal ones the last; without any key the last word.
     pub fn choose<K: Ord>(&self, key: impl Fn(&T) -> Option<K>) -> Option<&([u8; 16], T)> {
         self.words.iter().max_by_key(|(_, word)| key(word))
+    }
+
+    /// The word of `epoch`, which something newer is of; else that of the publisher that was followed last, if it is ahead of that: what is
+    /// newer will come after it; else the word of the last epoch before. Without an epoch (0), or any of these, the last word.
+    pub fn follow(&mut self, epoch: u64, of: impl Fn(&T) -> u64) -> Option<&([u8; 16], T)> {
+        let followed = self.followed;
+        let rank = |(gid, word): &([u8; 16], T)| match of(word).cmp(&epoch) {
+            _ if epoch == 0 => None,
+            Ordering::Equal => Some((3, epoch)),
+            Ordering::Greater => (followed == Some(*gid)).then_some((2, epoch)),
+            Ordering::Less => Some((1, of(word))),
+        };
+        let best = self.words.iter().max_by_key(|word| rank(word))?;
+        if rank(best).is_some() {
+            self.followed = Some(best.0);
+        }
+        Some(best)
     }
 
     /// Whether more than one publisher has spoken.
@@ -70,5 +91,30 @@ mod tests {
     fn a_crowd_does_not_push_the_first_one_out() {
         let crowd: Vec<_> = std::iter::once((0, 200)).chain((1..100).map(|publisher| (publisher, 2))).collect();
         assert_eq!(chosen(&crowd), Some((0, 200)));
+    }
+
+    /// Whom a reader follows whose goals are of an epoch, while words (publisher, epoch) are said.
+    #[test]
+    fn whom_a_reader_follows() {
+        let mut latched = Latched::default();
+        let mut hear = |said: &[(u8, u64)], epoch: u64| {
+            for (publisher, word) in said {
+                latched.hear([*publisher; 16], *word);
+            }
+            latched.follow(epoch, |word| *word).map(|(gid, word)| (gid[0], *word))
+        };
+        assert_eq!(hear(&[], 0), None);
+        assert_eq!(hear(&[(1, 5)], 0), Some((1, 5)), "before any goals");
+        assert_eq!(hear(&[(2, 1 << 63)], 0), Some((2, 1 << 63)), "the last word");
+        assert_eq!(
+            hear(&[], 6),
+            Some((1, 5)),
+            "of the last epoch before, not of one who is ahead and was never followed"
+        );
+        assert_eq!(hear(&[(1, 6)], 6), Some((1, 6)));
+        assert_eq!(hear(&[(2, 0)], 6), Some((1, 6)));
+        assert_eq!(hear(&[(1, 7)], 6), Some((1, 7)), "whom one follows is ahead of the goals for a moment");
+        assert_eq!(hear(&[(3, 6)], 6), Some((3, 6)), "the goals' own epoch");
+        assert_eq!(hear(&[], 7), Some((1, 7)));
     }
 }

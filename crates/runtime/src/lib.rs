@@ -26,6 +26,7 @@ mod process;
 mod reference;
 mod rhythm;
 mod run;
+mod security;
 mod signals;
 mod stream;
 mod timer;

@@ -14,6 +14,7 @@ use crate::transport::{Backend, TransportError};
 use crate::watchdog::Watchdog;
 use rustdds::mio1::{Events, Interest, Poll, Token};
 use std::io;
+use std::path::Path;
 use std::time::{Duration, Instant};
 use trench_core::{Discovered, Steady};
 
@@ -68,10 +69,10 @@ pub(crate) struct Process {
 }
 
 impl Process {
-    /// Joins the network; nodes are added afterwards.
-    pub(crate) fn new(backend: Backend, domain: u16) -> Result<Self, TransportError> {
+    /// Joins the network, as the `enclave` in this folder if there is one; nodes are added afterwards.
+    pub(crate) fn new(backend: Backend, domain: u16, enclave: Option<&Path>) -> Result<Self, TransportError> {
         let system = |what| move |source| TransportError::System { what, source };
-        let (network, mut status) = backend.join(domain)?;
+        let (network, mut status) = backend.join(domain, enclave)?;
         threads_wait_turn();
         let host = Host::join(domain)?;
         let poll = Poll::new().map_err(system("cannot make an event loop"))?;

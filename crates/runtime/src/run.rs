@@ -10,6 +10,7 @@ use crate::log::{Logger, logger_name};
 use crate::node::{Equipment, connect};
 use crate::parameters::ParameterServer;
 use crate::process::Process;
+use crate::security::enclave;
 use crate::transport::{Backend, TransportError, full_name};
 use crate::watchdog::Watchdog;
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
@@ -116,10 +117,7 @@ fn try_run(
     }
     let domain = domain(env::var("ROS_DOMAIN_ID").ok())?;
     let backend = Backend::of(env::var("RMW_IMPLEMENTATION").ok().as_deref()).map_err(UsageError::RmwImplementation)?;
-    // Whoever asks for secrecy must not be heard by everyone.
-    if env::var("ROS_SECURITY_ENABLE").is_ok_and(|enable| enable == "true") {
-        return Err(UsageError::Security.into());
-    }
+    let enclave = enclave(backend, |name| env::var(name).ok(), &arguments.enclave)?;
     // All cores first: what is wrong with one of them ends the process before it works.
     let mut prepared = Vec::new();
     let nodes = arguments.of_each_node(description.name);
@@ -131,7 +129,7 @@ fn try_run(
     }
     let patience = OPENING + OPENING_ONE * u32::try_from(prepared.len()).unwrap_or(u32::MAX);
     let opening = Watchdog::new(patience, Exit::Transport as u8, "the network did not open all topics");
-    let mut process = Process::new(backend, domain)?;
+    let mut process = Process::new(backend, domain, enclave.as_deref())?;
     let mut leases = Vec::new();
     for Prepared { core, names, equipment, lease } in prepared {
         leases.push(lease);

@@ -14,7 +14,7 @@ pub use law::{ChosenLaw, GoalLaw};
 pub use measures::{CaseSummary, LyapunovSummary, Measures, ObstacleSummary, RobotSummary, Summary};
 pub use read::{is_scenario, parse};
 pub use scenario::{
-    Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating, RegulatingCase,
-    Scenario, Seat, Start, Task, Timing,
+    Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating,
+    RegulatingCase, Scenario, Seat, Start, Task, Timing,
 };
 pub use simulation::{RunError, Sample, Simulation};

@@ -5,6 +5,7 @@ use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Course};
 use trench_formation::curve::CurveShape;
 use trench_formation::kinematics::{Hilare, PointState, Pose};
+use trench_formation::laws::Capability;
 use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
 use trench_formation::stability::TwoGainLaw;
 use trench_formation::trench::AnyTrench;
@@ -129,6 +130,17 @@ pub struct GoalCase {
     pub law: GoalLaw,
     /// The body that the law drives through T1 and T2 (3.1.1); none: the robots are double integrators (3.4).
     pub plant: Option<Hilare>,
+    /// What the robots can do (9.2), of double integrators under [`GoalLaw::Trench`]; none: whatever the law asks for.
+    pub bounds: Option<Bounds>,
+}
+
+/// Bounded actuators, and bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Relative to goal points.
+    pub limits: Capability,
+    /// m, with what is to be left between bodies: the law ends in the safety filter; none: robots are points.
+    pub radius: Option<f64>,
 }
 
 /// A chain along directions of attraction.

@@ -1,16 +1,16 @@
 //! Running a scenario.
 
 use crate::law::ChosenLaw;
-use crate::{ComparedCase, GoalCase, GoalLaw, Scenario, Task};
+use crate::{Bounds, ComparedCase, GoalCase, GoalLaw, Scenario, Task};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Trip};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::{HandState, HilareState, PointState, Twist};
 use trench_formation::laws::Steered;
 use trench_formation::simulate::{
-    ChainSimulation, GoalTeam, HilareTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
+    BoundedTeam, ChainSimulation, GoalTeam, HilareTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
 };
-use trench_formation::trench::AnyTrench;
+use trench_formation::trench::{AnyDamping, AnyTrench};
 
 /// Why a run cannot go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -68,6 +68,7 @@ enum Running {
 /// Robots that track goal points.
 enum Team {
     Points(GoalTeam),
+    Bounded(BoundedTeam<AnyTrench, AnyDamping>),
     Bodies(HilareTeam),
 }
 
@@ -101,9 +102,14 @@ impl Simulation {
             Task::GoalTracking(task) => {
                 let hands = task.robots.iter().zip(&task.headings);
                 let hands: Vec<HandState> = hands.map(|(&hand, &theta)| HandState { hand, theta }).collect();
-                let team = |case: &GoalCase| match case.plant {
-                    Some(body) => Team::Bodies(HilareTeam::new(body, &hands, timing.integration, timing.step)),
-                    None => Team::Points(GoalTeam::new(task.robots.clone(), timing.integration, timing.step)),
+                let fastest = task.goals.fastest();
+                let team = |case: &GoalCase| match (case.plant, case.bounds, &case.law) {
+                    (Some(body), ..) => Team::Bodies(HilareTeam::new(body, &hands, timing.integration, timing.step)),
+                    (None, Some(Bounds { limits, radius }), GoalLaw::Trench(law)) => {
+                        let (bodies, clock) = ((radius, fastest), (timing.integration, timing.step));
+                        Team::Bounded(BoundedTeam::new(task.robots.clone(), law.clone(), limits, bodies, clock))
+                    }
+                    _ => Team::Points(GoalTeam::new(task.robots.clone(), timing.integration, timing.step)),
                 };
                 Running::Goals(task.goals, task.cases.iter().map(|case| (team(case), case.law.clone())).collect())
             }
@@ -146,6 +152,7 @@ impl Simulation {
                     let (goal, law) = (|index, time| goals.at(index, time), |robot, goal| law.steer(robot, goal));
                     match team {
                         Team::Points(team) => team.step(goal, law),
+                        Team::Bounded(team) => team.step(goal),
                         Team::Bodies(team) => team.step(goal, law),
                     }
                 }
@@ -182,13 +189,13 @@ impl Simulation {
                     let deviation = (goal.position - robot.position).norm();
                     of_point(robot, Some(law.steer(robot, goal)), Some(goal.position), deviation)
                 };
+                let points = |robots: &[PointState], law: &GoalLaw, samples: &mut Vec<Sample>| {
+                    samples.extend(robots.iter().enumerate().map(|(index, robot)| sample(law, index, *robot)));
+                };
                 for (team, law) in teams {
                     match team {
-                        Team::Points(team) => {
-                            samples.extend(
-                                team.robots().iter().enumerate().map(|(index, robot)| sample(law, index, *robot)),
-                            );
-                        }
+                        Team::Points(team) => points(team.robots(), law, samples),
+                        Team::Bounded(team) => points(team.robots(), law, samples),
                         Team::Bodies(team) => {
                             let seen = team.hands().zip(team.robots()).enumerate();
                             samples.extend(seen.map(|(index, (hand, body))| of_body(sample(law, index, hand), *body)));

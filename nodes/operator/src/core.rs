@@ -149,10 +149,10 @@ impl Operator {
         }
     }
 
-    /// Of the goals' epoch, or the last one before, as controllers do it (their inputs/orders.rs).
+    /// As controllers do it (their inputs/orders.rs).
     fn choose_run(&mut self) {
         let epoch = self.goals.as_ref().map_or(0, |goals| goals.epoch);
-        let chosen = self.runs.choose(|run| (epoch != 0 && run.epoch <= epoch).then_some(run.epoch));
+        let chosen = self.runs.follow(epoch, |run| run.epoch);
         self.run = chosen.map(|(_, run)| run.clone());
     }
 

@@ -24,11 +24,36 @@ pub enum UsageError {
     /// ROS_DOMAIN_ID is not a domain.
     #[error("ROS_DOMAIN_ID is `{0}`; write a whole number from 0 to 232")]
     Domain(String),
-    /// Security is asked for, which there is none of.
+    /// Security is asked for, which this build has none of.
     #[error(
-        "ROS_SECURITY_ENABLE is true, but DDS Security is not supported: unset it, or use Zenoh with TLS (docs/nodes/runtime.md)"
+        "ROS_SECURITY_ENABLE is true, but DDS Security is not in this build: build with --features dds-security, unset it, or use Zenoh with \
+         TLS (docs/nodes/runtime.md)"
     )]
-    Security,
+    SecurityNotBuilt,
+    /// Security is asked for over Zenoh.
+    #[error(
+        "ROS_SECURITY_ENABLE is true, but Zenoh does not go by it: unset it, and give Zenoh TLS and access control (docs/nodes/runtime.md)"
+    )]
+    SecurityOfZenoh,
+    /// Security is asked for, but not where its files are.
+    #[error(
+        "ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE names no folder: make one (ros2 security create_keystore) and name it"
+    )]
+    NoKeystore,
+    /// A file of the enclave cannot be read.
+    #[error(
+        "{file}: {problem}; make the enclave (ros2 security create_enclave KEYSTORE NAME) and name it by --ros-args --enclave NAME or \
+         ROS_SECURITY_ENCLAVE_OVERRIDE"
+    )]
+    Enclave {
+        /// The file.
+        file: String,
+        /// What the system says.
+        problem: String,
+    },
+    /// Not the name of an enclave.
+    #[error("`--enclave {0}` names no enclave; write an absolute name such as /robot1")]
+    EnclaveName(String),
     /// RMW_IMPLEMENTATION names none that is known.
     #[error(
         "RMW_IMPLEMENTATION is `{0}`; write rmw_zenoh_cpp for Zenoh, rmw_fastrtps_cpp or rmw_cyclonedds_cpp (or nothing) for DDS"

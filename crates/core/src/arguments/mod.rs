@@ -44,6 +44,8 @@ pub struct Arguments {
     pub rosout: bool,
     /// Whether log lines go to the console.
     pub console: bool,
+    /// `--enclave NAME`: who the process is where DDS Security is asked for.
+    pub enclave: String,
     /// `--namespaces LIST`: a node in each of them instead of one; see [`Arguments::of_each_node`].
     pub namespaces: Vec<String>,
     /// `--help` was given.
@@ -59,6 +61,7 @@ impl Default for Arguments {
             log_levels: Vec::new(),
             rosout: true,
             console: true,
+            enclave: "/".to_owned(),
             namespaces: Vec::new(),
             help: false,
         }
@@ -107,9 +110,10 @@ impl Arguments {
             "--disable-rosout-logs" => self.rosout = false,
             "--enable-stdout-logs" => self.console = true,
             "--disable-stdout-logs" => self.console = false,
-            // Accepted as every ROS 2 node does; there is no external log library and no security enclave here.
+            "-e" | "--enclave" => self.enclave = enclave(value()?)?,
+            // Accepted as every ROS 2 node does; there is no external log library here.
             "--enable-external-lib-logs" | "--disable-external-lib-logs" => {}
-            "-e" | "--enclave" | "--log-config-file" | "--log-file-name" => {
+            "--log-config-file" | "--log-file-name" => {
                 value()?;
             }
             _ => return Err(UsageError::Unknown(flag.to_owned())),
@@ -124,6 +128,12 @@ impl Arguments {
         }
         Ok(())
     }
+}
+
+/// An absolute name whose parts are none that lead out of the keystore.
+fn enclave(name: String) -> Result<String, UsageError> {
+    let parts = name.strip_prefix('/').map(|rest| rest.split('/').all(|part| !matches!(part, "." | "..")));
+    if parts == Some(true) { Ok(name) } else { Err(UsageError::EnclaveName(name)) }
 }
 
 /// `[node:]name:=value`

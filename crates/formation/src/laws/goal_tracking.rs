@@ -1,5 +1,5 @@
 //! Laws (5.1), (5.2) and (5.3): a double integrator in a trench around its goal point.
-use super::GoalMotion;
+use super::{GoalMotion, Terms};
 use crate::Vector2;
 use crate::kinematics::PointState;
 use crate::lanes::{Number, Plane};
@@ -68,15 +68,21 @@ impl GoalTracking<Hyperbolic, ConstantDamping> {
 impl<T: Trench, D: Damping> GoalTracking<T, D> {
     /// The acceleration of a robot that tracks `goal`.
     pub fn steer(&self, robot: PointState, goal: GoalMotion) -> Steered {
-        let offset = goal.position - robot.position;
-        let closing = goal.velocity - robot.velocity;
+        let (offset, closing) = (goal.position - robot.position, goal.velocity - robot.velocity);
         let distance = libm::hypot(offset.x, offset.y);
-        let damping = self.damping.coefficient(distance);
+        let terms = self.terms(robot, goal);
         Steered {
-            acceleration: goal.acceleration + damping * closing + pull(&self.trench, offset),
+            acceleration: goal.acceleration + terms.damping + terms.attraction,
             lyapunov: 0.5 * closing.norm_squared() + self.trench.value(distance),
-            lyapunov_rate: -damping * closing.norm_squared(),
+            lyapunov_rate: -self.damping.coefficient(distance) * closing.norm_squared(),
         }
+    }
+
+    /// What the law adds to the goal point's acceleration, for [`Capability::saturate`].
+    pub fn terms(&self, robot: PointState, goal: GoalMotion) -> Terms {
+        let (offset, closing) = (goal.position - robot.position, goal.velocity - robot.velocity);
+        let damping = self.damping.coefficient(libm::hypot(offset.x, offset.y)) * closing;
+        Terms { walls: Vector2::zeros(), attraction: pull(&self.trench, offset), damping }
     }
 }
 

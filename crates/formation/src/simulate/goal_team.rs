@@ -62,6 +62,11 @@ pub struct WaveGoals {
 }
 
 impl WaveGoals {
+    /// The largest speed that a goal point can have, m/s.
+    pub fn fastest(&self) -> f64 {
+        libm::hypot(self.speed, self.amplitude * self.wave_number * self.speed)
+    }
+
     /// Position, velocity and acceleration of a robot's goal point at `time` (s).
     pub fn at(&self, index: usize, time: f64) -> GoalMotion {
         let x = self.first - index as f64 * self.spacing + self.speed * time;

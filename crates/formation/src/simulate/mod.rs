@@ -1,10 +1,11 @@
 //! Lock-step simulation of chains of double integrators under (7.13), and of what chapters 4 to 6 simulate:
-//! [`Regulation`] 4.4, [`GoalTeam`] 5.6, [`ZonedChain`] 6.5.
+//! [`Regulation`] 4.4, [`GoalTeam`] 5.6 and within bounds [`BoundedTeam`], [`ZonedChain`] 6.5.
 //!
 //! Nothing is drawn at random and sums have a fixed order: the same scenario gives the same bytes. In a [`ChainSimulation`],
 //! whose accelerations are held for fixed steps, what robots know of one another is sampled at ticks of several steps; steps
 //! allocate nothing while the segment, or what encroaches on it, rests.
 mod act;
+mod bounded_team;
 mod carriage;
 mod chain;
 mod goal_team;
@@ -23,6 +24,7 @@ mod workers;
 mod zoned_chain;
 
 pub use crate::agent::{Encroaching, Remedies};
+pub use bounded_team::BoundedTeam;
 pub use carriage::Carriage;
 pub use chain::ChainSimulation;
 pub use goal_team::{GoalTeam, WaveGoals};

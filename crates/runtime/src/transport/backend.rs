@@ -4,6 +4,7 @@ use super::TransportError;
 use super::dds::Participant;
 use super::network::{GraphWatch, Network};
 use super::zenoh::Session;
+use std::path::Path;
 
 /// The networks there are. Chosen as every ROS 2 process chooses, by RMW_IMPLEMENTATION, so that one variable in a shell
 /// or one `set_env` in a launch file moves Trench's nodes and everybody else's alike.
@@ -33,11 +34,11 @@ impl Backend {
         }
     }
 
-    /// Joins a ROS domain.
-    pub(crate) fn join(self, domain: u16) -> Result<Joined, TransportError> {
+    /// Joins a ROS domain; over DDS as the `enclave` in this folder, if there is one.
+    pub(crate) fn join(self, domain: u16, enclave: Option<&Path>) -> Result<Joined, TransportError> {
         match self {
             Self::Dds => {
-                let participant = Participant::join(domain)?;
+                let participant = Participant::join(domain, enclave)?;
                 let graph = participant.status();
                 Ok((Box::new(participant), graph))
             }

@@ -13,6 +13,18 @@ pub enum TransportError {
         /// What the DDS implementation says.
         reason: String,
     },
+    /// The network, where it is secured.
+    #[error(
+        "cannot join DDS domain {domain} as the enclave in {folder}: {reason}; check its certificates, governance and permissions"
+    )]
+    Enclave {
+        /// The ROS domain.
+        domain: u16,
+        /// Of the enclave's files.
+        folder: String,
+        /// What the DDS implementation says.
+        reason: String,
+    },
     /// The network, where it is Zenoh.
     #[error("cannot join Zenoh: {reason}; check ZENOH_SESSION_CONFIG_URI and ZENOH_CONFIG_OVERRIDE")]
     Zenoh {

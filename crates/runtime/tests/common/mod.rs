@@ -90,6 +90,7 @@ impl Running {
     }
 
     /// Waits until the log says `text`.
+    #[allow(dead_code, reason = "not every test asks")]
     pub(crate) fn wait_for_log(&self, text: &str) {
         let start = Instant::now();
         while start.elapsed() < PATIENCE {

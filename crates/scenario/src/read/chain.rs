@@ -1,6 +1,9 @@
 //! `kind: directions_of_attraction` (6.5) and `kind: nearest_points` (chapter 7).
 
-use super::common::{edge, not_negative, point, point_or_zero, points, positive, sharpness, some, trench, zoning};
+use super::common::{
+    body, edge, limits, not_negative, point, point_or_zero, points, positive, sharpness, some, trench, zoning,
+};
+use super::ranks::ranked;
 use crate::scenario::{Directed, Task, Timing};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
@@ -10,7 +13,7 @@ use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{CurveShape, Placed};
 use trench_formation::hull::{Obstacle, Outline, Shape};
 use trench_formation::kinematics::PointState;
-use trench_formation::laws::{Capability, NearestAttraction, ZonedAttraction};
+use trench_formation::laws::{NearestAttraction, ZonedAttraction};
 use trench_formation::safety::Stopping;
 use trench_formation::seek::{Fragments, LeaderRule, SeekSettings};
 use trench_formation::simulate::{
@@ -22,7 +25,7 @@ use trench_formation::zoning::ObstaclePotential;
 /// 6.5.
 pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
     let node = map.node("segment")?;
-    let (shape, _) = trench_plan::segment(node)?;
+    let (shape, curve) = trench_plan::segment(node)?;
     let CurveShape::Line(from, to) = shape else {
         return Err(node.error("is not straight", "directions of attraction are simulated towards kind: line"));
     };
@@ -30,6 +33,8 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
     let zoning = zoning(map)?;
     let nodes = some(map, "robots")?;
     let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
+    let team_goal = point(map.node("team_goal")?)?;
+    let (nodes, robots) = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
     let tangent = (to - from).normalize();
     let direction = map.opt_f64("direction")?;
     let across = Vector2::new(-tangent.y, tangent.x);
@@ -38,7 +43,7 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
         origin: from,
         tangent,
         directions: vec![direction.map_or(across, unit); robots.len()],
-        team_goal: point(map.node("team_goal")?)?,
+        team_goal,
         robots,
         law: ZonedAttraction {
             trench: law.trench,
@@ -71,14 +76,18 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
 /// Chapter 7.
 pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigError> {
     let (shape, curve) = trench_plan::segment(map.node("segment")?)?;
-    let robots = some(map, "robots")?;
+    let nodes = some(map, "robots")?;
+    let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
+    let carriage = map.opt_map("segment_motion")?.map_or(Ok(Carriage::parked()), |map| carriage(&map))?;
+    let team_goal = map.opt_node("team_goal").map(point).transpose()?;
+    let (nodes, robots) = ranked(map, nodes, robots, team_goal, &Placed::new(&curve, carriage.at(0.0).0))?;
     let listed = listed(map.opt_list("obstacles")?)?;
-    let limits = map.opt_map("limits")?.map(|map| limits(&map)).transpose()?;
+    let limits = limits(map)?;
     let scenario = ChainScenario {
         segment: curve,
-        carriage: map.opt_map("segment_motion")?.map_or(Ok(Carriage::parked()), |map| carriage(&map))?,
-        team_goal: map.opt_node("team_goal").map(point).transpose()?,
-        robots: robots.iter().map(state).collect::<Result<_, _>>()?,
+        carriage,
+        team_goal,
+        robots,
         law: law(map)?,
         zoning: zoning(map)?,
         obstacles: listed.obstacles,
@@ -90,7 +99,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         options: Options {
             method: map.opt_map("directed")?.map(|map| along_directions(&map)).transpose()?,
             limits,
-            safety: safety(map, limits)?,
+            safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
             sidesteps: map.get_or("sidesteps", false)?,
             obstacle_velocities: listed.velocities,
             walls: listed.walls,
@@ -100,12 +109,12 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         step: timing.step,
         steps_per_tick: map.get_or("steps_per_tick", 1)?,
     };
-    buildable(map, robots, &scenario)?;
+    buildable(map, &nodes, &scenario)?;
     Ok(Task::Nearest(Box::new(scenario), shape))
 }
 
 /// Whether the chain can be built, and leaves its robots a place.
-fn buildable(map: &Map<'_>, robots: &[Node], scenario: &ChainScenario<AnyTrench>) -> Result<(), ConfigError> {
+fn buildable(map: &Map<'_>, robots: &[&Node], scenario: &ChainScenario<AnyTrench>) -> Result<(), ConfigError> {
     if let Err(error) = ChainSimulation::new(scenario.clone()) {
         let text = error.to_string();
         return Err(match error {
@@ -257,13 +266,6 @@ fn encroaching(map: &Map<'_>) -> Result<Encroaching, ConfigError> {
     }
 }
 
-/// What the robots can do.
-fn limits(map: &Map<'_>) -> Result<Capability, ConfigError> {
-    let limits = Capability { speed: positive(map, "speed")?, acceleration: positive(map, "acceleration")? };
-    map.finish()?;
-    Ok(limits)
-}
-
 /// Law (6.1) instead of (7.13): in a direction of the segment's frame, or across the segment.
 fn along_directions(map: &Map<'_>) -> Result<Method, ConfigError> {
     let direction = map.opt_f64("direction")?.map(|angle| Vector2::new(libm::cos(angle), libm::sin(angle)));
@@ -277,19 +279,6 @@ fn sight(map: &Map<'_>) -> Result<Sight, ConfigError> {
     let sight = Sight { range: positive(map, "range")?, piece: positive(map, "piece")? };
     map.finish()?;
     Ok(sight)
-}
-
-/// The safety filter, which has to know what the robots can do.
-fn safety(map: &Map<'_>, limits: Option<Capability>) -> Result<Option<Stopping>, ConfigError> {
-    match (map.opt_map("safety")?, limits) {
-        (None, _) => Ok(None),
-        (Some(_), None) => Err(map.error("safety", "needs to know what the robots can do", "give limits, too")),
-        (Some(safety), Some(capability)) => {
-            let radius = positive(&safety, "body_radius")? + not_negative(&safety, "margin", 0.0)?;
-            safety.finish()?;
-            Ok(Some(Stopping { radius, capability }))
-        }
-    }
 }
 
 fn remedies(map: &Map<'_>) -> Result<Remedies, ConfigError> {

@@ -3,6 +3,7 @@
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::Vector2;
+use trench_formation::laws::Capability;
 use trench_formation::trench::{
     AnyDamping, AnyTrench, Conic, ConstantDamping, CriticallyDamped, Hyperbolic, HyperbolicDamping, Meaning, Quadratic,
     Saturated, SaturatedDamping, SlopeTable, SquareRoot, Written, check_admissibility,
@@ -37,6 +38,27 @@ pub(super) fn points(node: &Node) -> Result<Vec<Vector2<f64>>, ConfigError> {
 /// `[x, y]` of a key, the origin where it is missing.
 pub(super) fn point_or_zero(map: &Map<'_>, key: &str) -> Result<Vector2<f64>, ConfigError> {
     map.opt_node(key).map_or(Ok(Vector2::zeros()), point)
+}
+
+/// What robots can do (9.2), where the file says so.
+pub(super) fn limits(map: &Map<'_>) -> Result<Option<Capability>, ConfigError> {
+    let Some(map) = map.opt_map("limits")? else { return Ok(None) };
+    let limits = Capability { speed: positive(&map, "speed")?, acceleration: positive(&map, "acceleration")? };
+    map.finish()?;
+    Ok(Some(limits))
+}
+
+/// Radius of bodies with their margin, m, where the law ends in the safety filter, and what robots can do, which it has to know.
+pub(super) fn body(map: &Map<'_>, limits: Option<Capability>) -> Result<Option<(f64, Capability)>, ConfigError> {
+    match (map.opt_map("safety")?, limits) {
+        (None, _) => Ok(None),
+        (Some(_), None) => Err(map.error("safety", "needs to know what the robots can do", "give limits, too")),
+        (Some(safety), Some(limits)) => {
+            let radius = positive(&safety, "body_radius")? + not_negative(&safety, "margin", 0.0)?;
+            safety.finish()?;
+            Ok(Some((radius, limits)))
+        }
+    }
 }
 
 /// A name that may stand in a topic.

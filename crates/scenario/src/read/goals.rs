@@ -1,8 +1,8 @@
 //! `kind: goal_tracking`: chapter 5.
 
-use super::common::{damping, name, point, point_or_zero, positive, some, trench};
+use super::common::{body, damping, limits, name, point, point_or_zero, positive, some, trench};
 use crate::law::GoalLaw;
-use crate::scenario::{GoalCase, GoalTracking};
+use crate::scenario::{Bounds, GoalCase, GoalTracking};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::avoidance::{GoalPotential, VelocityPotential};
@@ -16,8 +16,8 @@ pub(super) fn read(map: &Map<'_>) -> Result<GoalTracking, ConfigError> {
     let robot = |(index, node): (usize, &Node)| robot(node, &goals, index);
     let robots: Vec<(PointState, f64)> =
         some(map, "robots")?.iter().enumerate().map(robot).collect::<Result<_, _>>()?;
-    let (robots, headings) = robots.into_iter().unzip();
-    let cases: Vec<GoalCase> = some(map, "cases")?.iter().map(case).collect::<Result<_, _>>()?;
+    let (robots, headings): (Vec<_>, Vec<_>) = robots.into_iter().unzip();
+    let cases: Vec<GoalCase> = some(map, "cases")?.iter().map(|node| case(node, &robots)).collect::<Result<_, _>>()?;
     for (index, case) in cases.iter().enumerate() {
         if cases[..index].iter().any(|other| other.name == case.name) {
             return Err(map.error("cases", format!("two cases are called {}", case.name), "rename one"));
@@ -77,7 +77,7 @@ fn hand_offset(map: &Map<'_>) -> Result<f64, ConfigError> {
     Err(map.error("hand_offset", "is 0: T1 has no inverse there (3.1.1)", "steer a point in front of the axle"))
 }
 
-fn case(node: &Node) -> Result<GoalCase, ConfigError> {
+fn case(node: &Node, robots: &[PointState]) -> Result<GoalCase, ConfigError> {
     let map = node.map()?;
     let name = name(&map)?;
     let label = map.opt_str("label")?.unwrap_or(&name).to_owned();
@@ -98,8 +98,32 @@ fn case(node: &Node) -> Result<GoalCase, ConfigError> {
     };
     law.finish()?;
     let plant = plant(&map)?;
+    let bounds = bounds(&map, robots)?;
+    if bounds.is_some() && (plant.is_some() || !matches!(chosen, GoalLaw::Trench(_))) {
+        let problem = "hold double integrators under the law trench within bounds, nothing else";
+        return Err(map.error("limits", problem, "leave them out, or choose this law and no plant"));
+    }
     map.finish()?;
-    Ok(GoalCase { name, label, law: chosen, plant })
+    Ok(GoalCase { name, label, law: chosen, plant, bounds })
+}
+
+/// What the robots can do, and their bodies, which must not begin in each other.
+fn bounds(map: &Map<'_>, robots: &[PointState]) -> Result<Option<Bounds>, ConfigError> {
+    let limits = limits(map)?;
+    let radius = body(map, limits)?.map(|(radius, _)| radius);
+    let pairs = robots
+        .iter()
+        .enumerate()
+        .flat_map(|(index, robot)| robots[..index].iter().map(move |other| (index, robot, other)));
+    for (index, robot, other) in pairs {
+        let distance = (robot.position - other.position).norm();
+        if radius.is_some_and(|radius| distance < 2.0 * radius) {
+            let problem =
+                format!("is so large that r{} begins in another body, {distance} m from its middle", index + 1);
+            return Err(map.error("safety", problem, "make bodies smaller, or move robots apart"));
+        }
+    }
+    Ok(limits.map(|limits| Bounds { limits, radius }))
 }
 
 /// k, a number or a function of the distance; that which the trench is made of where it is critically damped and the law names none.

@@ -5,6 +5,7 @@ mod common;
 mod compared;
 mod figures;
 mod goals;
+mod ranks;
 mod regulating;
 
 use crate::scenario::{Launch, Scenario, Task, Timing};

@@ -1,7 +1,9 @@
 //! The values of the thesis, as its errata have them, through the scenario files: an edit that breaks one is seen.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
 
+mod bounds;
 mod hilare;
+mod ranks;
 mod trajectories;
 mod trenches;
 
@@ -140,18 +142,6 @@ fn chain_of_6_5_with_modified_zones() {
     assert!(along.windows(2).all(|pair| pair[0] > pair[1]), "{along:?}");
 }
 
-/// 9.2: what the robots can do, 1.2 m/s and 5 m/s^2, is never exceeded; bodies of 0.5 m touch nothing, and the chain stands in its order.
-#[test]
-fn bounded_chain_of_9_2() {
-    let case = run_within("9.2_bounded.yaml", [1.2, 5.0]);
-    assert_near(case.robots[0].position, &[100.0, 100.0], 0.1);
-    assert!(case.obstacles.len() == 4 && case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.5), "{case:?}");
-    // From outside they come to the edge of the neutral zone, where the continuous force of the zones fades out (chapter 7 of docs/theory).
-    assert!(leader_distances(&case).iter().all(|distance| (4.0..=10.2).contains(distance)), "{case:?}");
-    let along: Vec<f64> = case.robots.iter().map(|robot| robot.position[0] + robot.position[1]).collect();
-    assert!(along.windows(2).all(|pair| pair[0] > pair[1]), "{along:?}");
-}
-
 /// V of A.10, A.12 and A.18 along the runs of 5.6, 6.5 and 7.10: what the laws give it never is above 0, and it ends far below where it was.
 #[test]
 fn lyapunov_functions_fall_along_runs() {
@@ -170,37 +160,6 @@ fn lyapunov_functions_fall_along_runs() {
             assert!(told.last < 0.5 * told.greatest, "{name}, {}: {told:?}", robot.name);
         }
     }
-}
-
-/// (6.1) by the controllers' core, with limits and the safety filter.
-#[test]
-fn bounded_chain_of_6_5() {
-    let case = run_within("6.5_bounded.yaml", [1.2, 3.0]);
-    assert_near(case.robots[0].position, &[70.0, 70.0], 0.1);
-    assert!(leader_distances(&case).iter().all(|distance| (4.0..=10.2).contains(distance)), "{case:?}");
-}
-
-/// A run whose robots never are faster and never accelerate harder than this (m/s, m/s^2), nor come into each other's zone 1, and end on the segment.
-fn run_within(name: &str, [speed, acceleration]: [f64; 2]) -> CaseSummary {
-    let scenario = scenario(name);
-    let (mut simulation, mut measures) = (Simulation::new(&scenario).unwrap(), Measures::new(&scenario));
-    let (mut samples, mut before) = (Vec::new(), Vec::<Sample>::new());
-    let (step, mut hardest) = (scenario.timing.step, [0.0_f64; 2]);
-    for _ in 0..=(scenario.timing.duration / step).round() as u64 {
-        simulation.sample(false, &mut samples).unwrap();
-        measures.take(&scenario, &simulation, &samples);
-        for (now, before) in samples.iter().zip(&before) {
-            hardest[0] = hardest[0].max(now.velocity.norm());
-            hardest[1] = hardest[1].max((now.velocity - before.velocity).norm() / step);
-        }
-        before.clone_from(&samples);
-        simulation.step().unwrap();
-    }
-    assert!(hardest[0] <= speed + 1e-9 && hardest[1] <= acceleration + 1e-6, "{hardest:?}");
-    let case = measures.summary(&scenario).cases.remove(0);
-    assert!(case.robots.iter().all(|robot| robot.error < 0.1), "{case:?}");
-    assert!(case.in_zone_1 == 0.0 && case.closest_pair.unwrap() > 1.0, "{case:?}");
-    case
 }
 
 #[test]

@@ -2,8 +2,8 @@
 //!
 //! They are latched: said once, for good. Goals come with every frame, and who says them is pinned ([`trench_core::Master`]); they
 //! carry the epoch of their assignment. So that assignment counts which the goals are of, that formation which the assignment
-//! is for, and that run state which is of this epoch or the last one before: a stranger's are heard, and change nothing. One who
-//! copies the epoch is no stranger who errs but one who means it: against those, docs/hosts.md.
+//! is for, and that run state which is of this epoch, or by the same one of the next, or the last one before: a stranger's are heard, and change
+//! nothing. One who copies the epoch is no stranger who errs but one who means it: against those, docs/hosts.md.
 
 use super::Inputs;
 use crate::segments::Segments;
@@ -78,8 +78,7 @@ impl Inputs {
 
     fn choose_run(&mut self) -> Option<[u8; 16]> {
         let epoch = self.goals.epoch();
-        let (gid, chosen) =
-            self.orders.runs.choose(|word| (epoch != 0 && word.epoch <= epoch).then_some(word.epoch))?;
+        let (gid, chosen) = self.orders.runs.follow(epoch, |word| word.epoch)?;
         let gid = *gid;
         self.run = Some(chosen.clone());
         Some(gid)
@@ -131,8 +130,10 @@ mod tests {
             inputs.take_run(STRANGER, run(if epoch == 5 { 4 } else { epoch }, RunState::STOPPED));
             assert_eq!(state(&inputs), (5, RunState::RUNNING), "{epoch}");
             assert!(hear_goals(&mut inputs, 5, 2), "{epoch}");
-            // Our next assignment, with the stranger's still said.
+            // Our next assignment, with the stranger's still said; the goals of it come last.
             inputs.take_assignment(OURS, assignment(6));
+            assert!(inputs.take_run(OURS, run(6, RunState::RUNNING)), "{epoch}");
+            assert_eq!(inputs.run.as_ref().unwrap().state, RunState::RUNNING, "{epoch}");
             assert!(hear_goals(&mut inputs, 6, 3), "{epoch}");
             assert_eq!(state(&inputs).0, 6, "{epoch}");
             assert!(!hear_goals(&mut inputs, 5, 4) || epoch == 5, "{epoch}: goals of an assignment that was replaced");

@@ -167,7 +167,7 @@ mod tests {
         if !announced.can_hear() {
             return println!("SKIPPED: no network that has multicast");
         }
-        let mut participant = Participant::join(domain).unwrap();
+        let mut participant = Participant::join(domain, None).unwrap();
         let name = TopicName::new("/rosout", Log::TYPE);
         let _writer = participant.writer("/speaker", &name, Qos::RELIABLE).unwrap();
         let before = heard(&announced, 0.5);

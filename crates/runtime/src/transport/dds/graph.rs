@@ -1,12 +1,14 @@
 //! What this process tells the ROS graph: which node owns which endpoints (`ros_discovery_info`).
 
+use super::raw::{LITTLE_ENDIAN, RawAdapter, RawMessage};
 use crate::transport::TransportError;
 use crate::transport::full_name;
 use ros2_client::NodeName;
 use ros2_client::entities_info::{NodeEntitiesInfo, ParticipantEntitiesInfo};
-use rustdds::no_key::DataWriterCdr;
-use rustdds::{DomainParticipant, GUID, Publisher, RTPSEntity, TopicKind};
+use rustdds::no_key::{DataWriter, SerializerAdapter};
+use rustdds::{CDRSerializerAdapter, DomainParticipant, GUID, Publisher, RTPSEntity, TopicKind};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use trench_core::Qos;
 
 const TOPIC: &str = "ros_discovery_info";
@@ -23,7 +25,7 @@ pub(crate) enum Endpoint {
 pub(crate) struct Graph {
     participant: GUID,
     nodes: BTreeMap<String, NodeEntitiesInfo>,
-    writer: DataWriterCdr<ParticipantEntitiesInfo>,
+    writer: DataWriter<RawMessage, RawAdapter>,
 }
 
 impl Graph {
@@ -60,6 +62,9 @@ impl Graph {
     /// Tells everyone, late joiners too.
     pub(super) fn announce(&self) -> Result<(), TransportError> {
         let info = ParticipantEntitiesInfo::new(self.participant.into(), self.nodes.values().cloned().collect());
-        self.writer.write(info, None).map_err(|error| TransportError::endpoint(TOPIC, &error))
+        let fail = |error: &dyn Display| TransportError::endpoint(TOPIC, &error);
+        let body = CDRSerializerAdapter::<ParticipantEntitiesInfo>::to_bytes(&info).map_err(|error| fail(&error))?;
+        let message = RawMessage([&LITTLE_ENDIAN[..], &body].concat().into()).in_whole_words();
+        self.writer.write(message, None).map_err(|error| fail(&error))
     }
 }

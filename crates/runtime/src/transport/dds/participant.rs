@@ -16,6 +16,7 @@ use rustdds::{
     DomainParticipant, DomainParticipantBuilder, GUID, Publisher, QosPolicies, QosPolicyBuilder, Subscriber, Topic,
 };
 use rustdds::{RTPSEntity, TopicKind};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use trench_core::Qos;
 use trench_msgs::ServiceInfo;
@@ -30,6 +31,8 @@ pub(crate) struct Participant {
     publisher: Publisher,
     subscriber: Subscriber,
     graph: Graph,
+    /// Whether what is sent is protected: nothing of ours goes beside RustDDS then, which alone protects it.
+    is_secured: bool,
 }
 
 /// How long it may take until a participant has announced itself; as a rule 0.1 s.
@@ -49,12 +52,17 @@ const AT_ONCE: usize = 200;
 const BREATH: Duration = Duration::from_millis(30);
 
 impl Participant {
-    /// Joins a ROS domain.
-    pub(crate) fn join(domain: u16) -> Result<Self, TransportError> {
-        let fail = |error: CreateError| TransportError::Participant { domain, reason: error.to_string() };
+    /// Joins a ROS domain, as the `enclave` in this folder if there is one.
+    pub(crate) fn join(domain: u16, enclave: Option<&Path>) -> Result<Self, TransportError> {
+        let fail = |error: CreateError| match enclave {
+            None => TransportError::Participant { domain, reason: error.to_string() },
+            Some(folder) => {
+                TransportError::Enclave { domain, folder: folder.display().to_string(), reason: error.to_string() }
+            }
+        };
         let mut announced = Announced::listen(domain);
         let pause = Pause::begin();
-        let participant = DomainParticipantBuilder::new(domain).build().map_err(fail)?;
+        let participant = builder(domain, enclave).build().map_err(fail)?;
         // It stops before it announces the participant, and where it hears that, or of others.
         let start = Instant::now();
         let announcement = loop {
@@ -72,7 +80,8 @@ impl Participant {
         let publisher = participant.create_publisher(&defaults).map_err(fail)?;
         let subscriber = participant.create_subscriber(&defaults).map_err(fail)?;
         let graph = Graph::new(&participant, &publisher)?;
-        Ok(Self { opening, _announcements: announcements, participant, publisher, subscriber, graph })
+        let is_secured = enclave.is_some();
+        Ok(Self { opening, _announcements: announcements, participant, publisher, subscriber, graph, is_secured })
     }
 
     /// Changes of the ROS graph, for the event loop.
@@ -81,7 +90,7 @@ impl Participant {
     }
 
     fn dds_writer(&mut self, node: &str, name: &DdsName, qos: Qos) -> Result<DdsWriter, TransportError> {
-        Ok(DdsWriter::new(self.data_writer(node, name, qos::writer(qos))?))
+        Ok(DdsWriter::new(self.data_writer(node, name, qos::writer(qos))?, self.is_secured))
     }
 
     fn dds_reader(&mut self, node: &str, name: &DdsName, qos: Qos) -> Result<DdsReader, TransportError> {
@@ -136,6 +145,24 @@ impl Participant {
     }
 }
 
+#[cfg(feature = "dds-security")]
+fn builder(domain: u16, enclave: Option<&Path>) -> DomainParticipantBuilder {
+    use rustdds::DomainParticipantSecurityConfigFiles as Files;
+    let builder = DomainParticipantBuilder::new(domain);
+    // Keys of ROS 2's enclaves have no password.
+    let secured = |folder: &Path| Files::with_ros_default_names(folder, String::new());
+    match enclave.map(secured) {
+        Some(files) => builder.builtin_security(files),
+        None => builder,
+    }
+}
+
+/// Without security in the build there is no enclave: [`crate::security`] refuses it.
+#[cfg(not(feature = "dds-security"))]
+fn builder(domain: u16, _enclave: Option<&Path>) -> DomainParticipantBuilder {
+    DomainParticipantBuilder::new(domain)
+}
+
 /// How long RustDDS's thread may take to accept an endpoint.
 const ACCEPTANCE: Duration = Duration::from_secs(5);
 
@@ -177,6 +204,9 @@ impl Network for Participant {
 
     fn writer(&mut self, node: &str, name: &TopicName, qos: Qos) -> Result<Box<dyn NetworkWriter>, TransportError> {
         let writer = self.dds_writer(node, &DdsName::message(name.topic(), name.type_name()), qos)?;
+        if self.is_secured {
+            return Ok(Box::new(writer));
+        }
         let images = Images::of(writer.guid(), qos, self.participant.clone());
         Ok(Box::new(writer.with_images(images)))
     }
@@ -197,7 +227,7 @@ impl Network for Participant {
     ) -> Result<Box<dyn ServiceServer>, TransportError> {
         let requests = self.dds_reader(node, &DdsName::request(service, info.name), qos::SERVICE)?;
         let responses = self.dds_writer(node, &DdsName::response(service, info.name), qos::SERVICE)?;
-        Ok(Box::new(DdsServer::new(requests, responses, self.participant.clone())))
+        Ok(Box::new(DdsServer::new(requests, responses, self.participant.clone(), self.is_secured)))
     }
 
     fn client(

@@ -9,13 +9,28 @@ pub(crate) const HEADER: usize = 4;
 
 /// The second byte of the encapsulation header says which end of a number comes first.
 const BIG_ENDIAN: [u8; HEADER] = [0, 0, 0, 0];
-const LITTLE_ENDIAN: [u8; HEADER] = [0, 1, 0, 0];
+pub(super) const LITTLE_ENDIAN: [u8; HEADER] = [0, 1, 0, 0];
 
 const READABLE: [RepresentationIdentifier; 2] = [RepresentationIdentifier::CDR_LE, RepresentationIdentifier::CDR_BE];
 
 /// A message with its encapsulation header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct RawMessage(pub(crate) Bytes);
+
+impl RawMessage {
+    /// With zeros behind it, to whole words. RustDDS 0.15.1 cannot read encrypted payloads that are none: RTPS fills them up, and the filling
+    /// is taken for a part of what was encrypted. Readers of CDR pass over what is behind a message.
+    pub(super) fn in_whole_words(self) -> Self {
+        let length = self.0.len().next_multiple_of(4);
+        if length == self.0.len() {
+            return self;
+        }
+        let mut message = Vec::with_capacity(length);
+        message.extend_from_slice(&self.0);
+        message.resize(length, 0);
+        Self(message.into())
+    }
+}
 
 /// Hands bytes through in both directions.
 #[derive(Debug, Clone, Copy)]
@@ -81,6 +96,14 @@ mod tests {
         assert_eq!(RawAdapter.decode_bytes(&body, RepresentationIdentifier::CDR_LE).unwrap(), message);
         let big = RawAdapter.decode_bytes(&body, RepresentationIdentifier::CDR_BE).unwrap();
         assert_eq!(&big.0[..], [0, 0, 0, 0, 7, 8, 9]);
+    }
+
+    #[test]
+    fn words_are_filled_up() {
+        for (said, expected) in [(&[1, 2, 3, 4][..], &[1, 2, 3, 4][..]), (&[1, 2, 3, 4, 5], &[1, 2, 3, 4, 5, 0, 0, 0])]
+        {
+            assert_eq!(RawMessage(Bytes::from(said.to_vec())).in_whole_words().0, expected);
+        }
     }
 
     #[test]

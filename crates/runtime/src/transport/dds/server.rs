@@ -30,11 +30,18 @@ pub(crate) struct DdsServer {
     participant: DomainParticipant,
     readers: BTreeSet<Gid>,
     held: Vec<Held>,
+    /// Whether what is sent is protected, as what goes beside RustDDS is not.
+    is_secured: bool,
 }
 
 impl DdsServer {
-    pub(super) fn new(requests: DdsReader, responses: DdsWriter, participant: DomainParticipant) -> Self {
-        Self { requests, responses, participant, readers: BTreeSet::new(), held: Vec::new() }
+    pub(super) fn new(
+        requests: DdsReader,
+        responses: DdsWriter,
+        participant: DomainParticipant,
+        is_secured: bool,
+    ) -> Self {
+        Self { requests, responses, participant, readers: BTreeSet::new(), held: Vec::new(), is_secured }
     }
 
     fn send(&mut self, request: SampleIdentity, response: Bytes) -> Result<(), NotSent> {
@@ -49,7 +56,7 @@ impl DdsServer {
 
     /// Sends what does not fit a datagram of an Ethernet to the client alone, as the next message of our writer.
     fn send_long(&self, request: SampleIdentity, response: &Bytes) -> Result<(), NotSent> {
-        if response.len() > long::LONGEST {
+        if response.len() > long::LONGEST || self.is_secured {
             return Err(NotSent::TooLong(response.len()));
         }
         let number = self.responses.next_number().ok_or(NotSent::Congested)?;

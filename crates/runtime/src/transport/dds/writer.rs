@@ -21,11 +21,13 @@ pub(crate) struct DdsWriter {
     accepted: u64,
     /// The way of images, on topics that may have some.
     images: Option<Images>,
+    /// Whether messages are encrypted.
+    is_secured: bool,
 }
 
 impl DdsWriter {
-    pub(super) fn new(writer: DataWriter<RawMessage, RawAdapter>) -> Self {
-        Self { writer, waiting: VecDeque::new(), accepted: 0, images: None }
+    pub(super) fn new(writer: DataWriter<RawMessage, RawAdapter>, is_secured: bool) -> Self {
+        Self { writer, waiting: VecDeque::new(), accepted: 0, images: None, is_secured }
     }
 
     /// Images will take a way of their own.
@@ -43,7 +45,9 @@ impl DdsWriter {
         if !self.has_room() {
             return Err(Congested);
         }
-        self.waiting.push_back((RawMessage(message), options.source_timestamp(Timestamp::now()).build()));
+        let message = RawMessage(message);
+        let message = if self.is_secured { message.in_whole_words() } else { message };
+        self.waiting.push_back((message, options.source_timestamp(Timestamp::now()).build()));
         self.accepted += 1;
         self.flush();
         Ok(self.accepted)
