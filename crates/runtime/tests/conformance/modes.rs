@@ -165,6 +165,6 @@ fn wrong_configurations_end_a_node_and_say_where() {
     };
     check("ZENOH_SESSION_CONFIG_URI", "/no/such.json5", "ZENOH_SESSION_CONFIG_URI: /no/such.json5", 4);
     check("ZENOH_CONFIG_OVERRIDE", "mode", "ZENOH_CONFIG_OVERRIDE: `mode`: write key=value", 4);
-    check("ROS_SECURITY_ENABLE", "true", "DDS Security is not supported", 2);
+    check("ROS_SECURITY_ENABLE", "true", "Zenoh does not go by it", 2);
     check("RMW_IMPLEMENTATION", "rmw_carrier_pigeon", "RMW_IMPLEMENTATION is `rmw_carrier_pigeon`", 2);
 }
