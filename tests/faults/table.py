@@ -83,8 +83,9 @@ def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], stam
 
 
 def briefly(problems: list[str]) -> str:
-    """The first of them."""
-    return problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
+    """The first of them, as a cell of a table may have it."""
+    more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+    return problems[0].replace("|", "\\|") + more
 
 
 def worst(met: list[dict], key: str) -> str:
