@@ -90,7 +90,6 @@ impl Running {
     }
 
     /// Waits until the log says `text`.
-    #[allow(dead_code, reason = "not every test asks")]
     pub(crate) fn wait_for_log(&self, text: &str) {
         let start = Instant::now();
         while start.elapsed() < PATIENCE {

@@ -93,7 +93,8 @@ fn permissions_are_kept_to() {
 fn services_answer_and_large_messages_pass() {
     let (island, keystore) = (Island::new(34), Keystore::new(&["/talker", "/listener"]));
     let caller = start(&island, &keystore, "/listener", "caller", "");
-    let talker = start(&island, &keystore, "/talker", "talker", "");
+    let talker = start(&island, &keystore, "/talker", "talker", "--log-level debug");
+    talker.wait_for_log("said 1");
     assert_eq!(caller.line(), "counting from 1");
     assert_eq!(caller.end().0, 0);
     drop(talker);
