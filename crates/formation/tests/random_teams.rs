@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape};
-use trench_formation::hull::{ApparentObstacle, Outline};
+use trench_formation::hull::{ApparentObstacle, Obstacle};
+use trench_formation::kinematics::PointState;
 use trench_formation::simulate::{
     BODY_RADIUS, CAPABILITY, Standard, Verdict, judge, random_team, random_team_among_concave_obstacles,
 };
@@ -123,26 +124,49 @@ fn seeds_that_were_once_late_conform() {
     }
 }
 
-/// Gaps between hulls are at least two clearances, nobody begins within its stopping distance of where walls repel, most obstacles have
-/// mouths, and robots begin in some of them.
+/// Gaps between hulls are at least two clearances, also of those that move, as long as a run may take; nobody begins within its stopping
+/// distance of where walls repel, and obstacles move at half the robots' speed at most.
 #[test]
-fn concave_obstacles_keep_what_the_generator_promises() {
+fn obstacles_keep_what_the_generator_promises() {
+    let stopping = CAPABILITY.speed * CAPABILITY.speed / (2.0 * CAPABILITY.acceleration);
+    let mut moving = 0;
+    for team in (0..200).flat_map(|seed| [random_team(seed), random_team_among_concave_obstacles(seed)]).flatten() {
+        let velocities = &team.options.obstacle_velocities;
+        assert!(velocities.iter().all(|velocity| velocity.norm() <= 0.5 * CAPABILITY.speed));
+        let moves = velocities.iter().any(|velocity| *velocity != Vector2::zeros());
+        moving += u32::from(moves);
+        // Others than the moments that the generator looks at.
+        for moment in (0..if moves { 28 } else { 1 }).map(|look| f64::from(look) * 7.13) {
+            let moved = |(obstacle, velocity): (&Obstacle, &Vector2<f64>)| Obstacle {
+                id: obstacle.id,
+                shape: obstacle.shape.moved(moment * velocity).unwrap(),
+            };
+            let obstacles: Vec<Obstacle> = team.obstacles.iter().zip(velocities).map(moved).collect();
+            let apparent = team.combined(&obstacles).unwrap();
+            for (index, hull) in apparent.iter().enumerate() {
+                let apart = |other: &ApparentObstacle| hull.shape.outline().gap(&other.shape.outline());
+                assert!(apparent[..index].iter().map(apart).all(|gap| gap >= 2.0 * team.clearance), "{moment} s");
+            }
+        }
+        for robot in &team.robots {
+            let gap = |obstacle: &Obstacle| obstacle.shape.outline().approach(robot.position).gap;
+            assert!(team.obstacles.iter().all(|one| gap(one) > team.potential.cut() + stopping), "{robot:?}");
+        }
+    }
+    assert!(moving >= 100, "obstacles move in {moving} teams");
+}
+
+/// Most of the concave ones are, and robots begin in some of their mouths.
+#[test]
+fn robots_begin_in_mouths_of_concave_obstacles() {
     let (mut hulls, mut concave, mut within) = (0, 0, 0);
     for team in (0..200).filter_map(random_team_among_concave_obstacles) {
         let apparent = team.combined(&team.obstacles).unwrap();
-        for (index, hull) in apparent.iter().enumerate() {
-            hulls += 1;
-            concave += u32::from(hull.members.len() > 1);
-            let apart = |other: &ApparentObstacle| hull.shape.outline().gap(&other.shape.outline());
-            assert!(apparent[..index].iter().map(apart).all(|gap| gap >= 2.0 * team.clearance));
-        }
-        let stopping = CAPABILITY.speed * CAPABILITY.speed / (2.0 * CAPABILITY.acceleration);
-        for robot in &team.robots {
-            let gap = |outline: Outline<'_>| outline.approach(robot.position).gap;
-            let clear = team.obstacles.iter().all(|one| gap(one.shape.outline()) > team.potential.cut() + stopping);
-            assert!(clear, "{robot:?}");
-            within += u32::from(apparent.iter().any(|hull| gap(hull.shape.outline()) < 0.0));
-        }
+        hulls += apparent.len();
+        concave += apparent.iter().filter(|hull| hull.members.len() > 1).count();
+        let in_mouth =
+            |robot: &PointState| apparent.iter().any(|hull| hull.shape.outline().approach(robot.position).gap < 0.0);
+        within += team.robots.iter().filter(|robot| in_mouth(robot)).count();
     }
     assert!(2 * concave > hulls, "{concave} of {hulls}");
     assert!(within >= 50, "{within} robots begin in mouths");
