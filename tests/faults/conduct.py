@@ -36,7 +36,7 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
         shutil.rmtree(folder / "launch")
     launched = Launched(run, binaries, folder, seed)
     ears = inject.Ears(launched.log)
-    windows, memory, code, changes = [], [], None, None
+    windows, memory, code, changes, logs, missing = [], [], None, None, {}, []
     try:
         changes = Changes(run, launched)
         if "late" in run:
@@ -57,6 +57,7 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
             ears.wait_until(float(run["arguments"]["duration"]) - 1.0)
             memory.append(launched.memory())
         code = launched.wait()
+        logs, missing = launched.logs(), launched.missing()
     finally:
         if changes:
             changes.end()
@@ -66,8 +67,9 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
     evidence = judge.Evidence(
-        bag=folder / "bag", log=launched.all_logs(), exit_code=code, memory=memory, alive_after=max(lived, default=None),
+        bag=folder / "bag", logs=logs, exit_code=code, memory=memory, alive_after=max(lived, default=None),
         own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
+        missing=missing, left=launched.left,
     )
     return judge.judge(run, windows, evidence)
 

@@ -26,9 +26,10 @@ class Hosts:
             for name in self.names:
                 ip("netns", "add", self.namespace(name))
                 ip("-n", self.namespace(name), "link", "set", "lo", "up")
-                # As docs/hosts.md has it for Zenoh; older kernels do not know it.
-                limit = "f=/proc/sys/net/ipv4/tcp_rto_max_ms; [ ! -e $f ] || echo 1000 > $f"
-                subprocess.run([*self.command(name), "sh", "-c", limit], check=True)
+                # As docs/hosts.md has it for Zenoh; older kernels do not know all.
+                for setting, value in (("tcp_rto_max_ms", 1000), ("tcp_thin_linear_timeouts", 1)):
+                    write = f"f=/proc/sys/net/ipv4/{setting}; [ ! -e $f ] || echo {value} > $f"
+                    subprocess.run([*self.command(name), "sh", "-c", write], check=True)
             if kind != ZENOH:
                 self._network(seed, "10.77.0", INTERFACE, self.names)
             else:

@@ -297,18 +297,19 @@ def wrong_types(ears: Ears, seconds: float) -> float:
 
 
 def garbage_udp(ears: Ears, seconds: float) -> float:
-    """Noise on every DDS port of the domain that a participant may have, half of it behind an RTPS header."""
+    """Noise on every DDS port of the domain that a participant may have, its multicast ones too, half of it behind an RTPS header."""
     del ears
     chance = random.Random(1)
     base = 7400 + 250 * int(os.environ["ROS_DOMAIN_ID"])
     ports = [base, base + 1, *range(base + 10, base + 60)]
+    places = [*(("127.0.0.1", port) for port in ports), ("239.255.0.1", base), ("239.255.0.1", base + 1)]
     header = b"RTPS\x02\x04\x01\x12" + bytes(12)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
         began, end = time.time(), time.monotonic() + seconds
         while time.monotonic() < end:
-            for port in ports:
+            for place in places:
                 noise = chance.randbytes(chance.randrange(1, 1400))
-                sender.sendto(header + noise if chance.random() < 0.5 else noise, ("127.0.0.1", port))
+                sender.sendto(header + noise if chance.random() < 0.5 else noise, place)
             time.sleep(0.005)
     return began
 

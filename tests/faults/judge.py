@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import wheels
-from bag import NEAR, Run
+from bag import NEAR, Run, Series
+from hosts import BASE
 from motion import AGE, allowed, burst, idle, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
@@ -26,12 +27,12 @@ RESUMED, QUIT = 1.0, 3.0
 LATELY, RESTS = 0.5, 0.005
 # rad/s and m/s, beyond which no command goes.
 LIMITS = (0.31, 5.0)
-# m, between the middles of two robots that touch.
-TOUCH = 0.16
+# m, between the middles of two robots that touch, and s, within which one that is carried to touch somebody does.
+TOUCH, PUT = 0.16, 0.2
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
-# s, the longest gap in the bag.
-GAP = 1.0
+# s, the longest gap in the bag, and s, from one sample of ground truth to the next.
+GAP, RATE = 1.0, 1.0 / 30.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
@@ -46,7 +47,8 @@ class Evidence:
     """What a run left."""
 
     bag: Path
-    log: str
+    # What the launcher of each host had said when that of the base station ended.
+    logs: dict[str, str]
     exit_code: int
     memory: list[dict[str, int]]
     alive_after: float | None
@@ -56,6 +58,10 @@ class Evidence:
     tap: Path
     spoken: Path
     refused: list[str]
+    # What runs beside the launched processes, launchers of other hosts too, and had ended by then.
+    missing: list[str]
+    # Its files in shared memory, when all had ended.
+    left: list[str]
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -75,7 +81,7 @@ def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
         one(bag, run, fault, (began, ended, begins[bisect.bisect_right(begins, began)]), evidence)
         for fault, began, ended in windows
     ]
-    general = whole(bag, run, evidence)
+    general = whole(bag, run, evidence) + contacts(bag, windows)
     for verdict in verdicts:
         verdict.problems += general
     return verdicts
@@ -88,13 +94,8 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if began == 0.0:
         verdict.problems.append("it never began")
         return verdict
-    # What is carried to touch somebody does so at once.
-    since = began + (0.2 if fault.get("touches") else 0.0)
-    if fault.get("touches") and bag.nearest(fault["touches"], began, since) > TOUCH:
+    if fault.get("touches") and bag.nearest(fault["touches"], began, began + PUT) > TOUCH:
         verdict.problems.append(f"{fault['touches']} touched nobody")
-    contacts = [text for at, text in bag.contacts if since <= at <= min(ended + FORMATION, following - LATE)]
-    if contacts:
-        verdict.problems.append(f"contact: {contacts[0]}")
     diagnose(bag, fault, began, evidence, verdict)
     stopped = sorted(bag.truth) if fault.get("stops") or fault.get("ends") else fault.get("halts", [])
     resting = [robot for robot in stopped if not any(moves(state) for _, state in bag.truth[robot].between(began - 1.0, began))]
@@ -125,7 +126,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
             verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
     if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
         verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
-    if "drives" in fault and (stood := idle(bag, began, ended)) > fault["drives"]:
+    if "drives" in fault and (stood := idle(bag, began, ended, fault.get("halts", []))) > fault["drives"]:
         verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
     if "kill" in fault:
         verdict.rested = rest(bag, began, min(began + FORMATION, following))
@@ -153,7 +154,8 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
     harm = began + fault.get("later", 0.0)
     if "warns" in fault:
         pattern = fault["warns"]
-        lines = re.findall(r"\[(?:WARN|ERROR)\] \[(\d+\.\d+)\] \[[\w.]+\]: (.*)", evidence.log)
+        said = "\n".join(evidence.logs.values())
+        lines = re.findall(r"\[(?:WARN|ERROR)\] \[(\d+\.\d+)\] \[[\w.]+\]: (.*)", said)
         times = [float(at) - harm for at, text in lines if float(at) >= began - BEFORE and re.search(pattern, text)]
     elif pattern in REPORTERS:
         times = [fault["reported"]] if "reported" in fault else []
@@ -180,6 +182,8 @@ def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict
         changed = [made for _, made in bag.assignments.between(began, until) if made != before]
         if not before or changed:
             verdict.problems.append(f"the assignment did not stay: {before} became {changed[:1]}")
+    if follower := fault.get("retargets"):
+        retargets(bag, follower, window, verdict)
     newcomer = fault.get("joins")
     if newcomer and (newcomer in before or not any(newcomer in made for _, made in bag.assignments.between(began, until))):
         verdict.problems.append(f"{newcomer} did not join: {before} became {bag.assignments.at(until)}")
@@ -204,6 +208,18 @@ def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict
     again = next((at for at, made in bag.assignments.between(ended, until) if robot in made), None)
     if again is None:
         verdict.problems.append(f"{robot} has no rank again by {until - ended:.1f} s after its return")
+
+
+def retargets(bag: Run, follower: str, window: tuple[float, float, float], verdict: Verdict) -> None:
+    """A robot must follow the target while its leader is not heard, and that leader again afterwards (Remark 8.4.1)."""
+    began, ended, until = window
+
+    def leader(at: float) -> str | None:
+        return (bag.assignments.at(at) or {}).get(follower, (0, 0, None))[2]
+
+    before, meanwhile, after = leader(began), leader(ended), leader(until - LATE)
+    if not before or meanwhile != "" or after != before:
+        verdict.problems.append(f"{follower} followed {before!r} before, {meanwhile!r} meanwhile, {after!r} afterwards")
 
 
 def since_when(holds, ended: float, until: float) -> float | None:
@@ -257,7 +273,7 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         beyond = [value for value in series.values if not (abs(value[0]) <= LIMITS[0] and abs(value[1]) <= LIMITS[1])]
         if beyond:
             problems.append(f"a command for {robot} is beyond its limits: {beyond[0]}")
-    problems += exits(bag, run, evidence.log)
+    problems += exits(run, evidence) + too_soon(bag, run)
     if not any(fault.get("ends") for fault in run["faults"]) and evidence.exit_code != 0:
         problems.append(f"the run ended with {evidence.exit_code}")
     if len(evidence.memory) == 2:
@@ -272,18 +288,52 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     gaps = [later - earlier for earlier, later in zip(bag.log_times, bag.log_times[1:])]
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")
-    return problems
+    return problems + recorded(bag, run, evidence) + [f"{name} is left in shared memory" for name in evidence.left]
 
 
-def exits(bag: Run, run: dict, log: str) -> list[str]:
-    """Processes that ended, however, before the operator ended the run, and were no victims; and an operator that did too soon."""
+def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
+    """What the bag that the launch itself records has lost of the run, which is at most a second but for a pause of its recorder."""
+    if run["arguments"].get("record") != "true" or any("bag" in fault for fault in run["faults"]):
+        return []
+    own, t0, end = Run(evidence.own_bag, run.get("clocks", False)), bag.t0 or math.inf, bag.stopped or math.inf
+
+    def samples(series: Series) -> int:
+        # A wall clock that jumps goes by whole hours.
+        return sum(t0 <= at - 3600.0 * round((at - t0) / 3600.0) <= end for at in series.times)
+
+    paused = sum(fault["for"] for fault in run["faults"] if fault.get("pause") == "bag_recorder")
+    lost = {robot: RATE * (samples(series) - samples(own.truth.get(robot, Series()))) for robot, series in bag.truth.items()}
+    return [f"the bag of the launch has lost {most:.1f} s of {robot}" for robot, most in lost.items() if most > GAP + paused]
+
+
+def contacts(bag: Run, windows: list) -> list[str]:
+    """Bodies that touched, whenever that was, but for a robot that was carried to touch another one."""
+    put = [began for fault, began, _ in windows if fault.get("touches")]
+    return [f"contact: {text}" for at, text in bag.contacts if not any(began <= at <= began + PUT for began in put)][:1]
+
+
+# A line of the launcher's own about the end of a process: its label, how it ended, its pid, and with what.
+END = re.compile(r"^\[\w+\] \[([\w/.-]+)\]: process has (died|finished cleanly) \[pid (\d+)(?:, ([^\]]*))?\]", re.MULTILINE)
+
+
+def exits(run: dict, evidence: Evidence) -> list[str]:
+    """Processes that ended, however, before the operator ended the run, and were no victims."""
     victims = {fault["pid"] for fault in run["faults"] if "pid" in fault}
-    ends = re.findall(r"\[\w+\] \[(\d+\.\d+)\] \[([\w/.-]+)\]: process has (died|finished cleanly) \[pid (\d+)(?:, ([^\]]*))?\]", log)
-    over = min((float(at) for at, label, *_ in ends if label.startswith("operator-")), default=math.inf)
     problems = []
-    for at, label, how, pid, status in ends:
-        if float(at) < over and int(pid) not in victims:
-            problems.append(f"{label} ended too: {how} {status}")
-    if bag.t0 and over < bag.t0 + float(run["arguments"]["duration"]) - 0.5:
-        problems.append(f"the operator ended {over - bag.t0:.1f} s after the start")
-    return problems
+    for host, log in evidence.logs.items():
+        for label, how, pid, status in END.findall(log):
+            # The operator's end is the run's; the launchers of other hosts end later.
+            if host == BASE and label.startswith("operator-"):
+                break
+            if int(pid) not in victims:
+                problems.append(f"{label} on {host} ended too: {how} {status}".rstrip())
+    gone = {fault["kill"] for fault in run["faults"] if fault.get("gone") or fault.get("ends")}
+    return problems + [f"{name} ended too" for name in evidence.missing if name not in gone]
+
+
+def too_soon(bag: Run, run: dict) -> list[str]:
+    """An operator that ended the run before it was over."""
+    if any(fault.get("ends") for fault in run["faults"]) or not bag.t0 or not bag.stopped:
+        return []
+    lasted = bag.stopped - bag.t0
+    return [f"the run was stopped {lasted:.1f} s after the start"] if lasted < float(run["arguments"]["duration"]) - 0.5 else []

@@ -102,6 +102,8 @@ class Launched:
         # What runs beside the launch, by name, and what somebody on another host saw.
         self.named: dict[str, subprocess.Popen] = {}
         self.seen = folder / "seen"
+        # Names of files in shared memory, when all had ended.
+        self.left: list[str] = []
         self.clocks = run.get("clocks", False)
         self.own_bag = folder / "own-bag"
         self.tap, self.spoken = folder / "line.tap", folder / "spoken"
@@ -258,9 +260,18 @@ class Launched:
         path = self.folder / "launch" / host / "log" / "launch.log"
         return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
 
+    def logs(self) -> dict[str, str]:
+        """What the launcher of each host says so far."""
+        return {host: self.log(host) for host in self.launchers}
+
     def all_logs(self) -> str:
         """What all launchers say."""
-        return "\n".join(self.log(host) for host in self.launchers)
+        return "\n".join(self.logs().values())
+
+    def missing(self) -> list[str]:
+        """What runs beside the launch of the base station, and has ended."""
+        others = {f"the launcher of {host}": launcher for host, launcher in self.launchers.items() if host != BASE}
+        return [name for name, process in {**others, **self.named, "the judge's recorder": self.recorder}.items() if process.poll() is not None]
 
     def processes(self) -> dict[str, int]:
         """Label of each process, behind its host, and its latest pid."""
@@ -292,7 +303,8 @@ class Launched:
     def memory(self) -> dict[str, int]:
         """Resident bytes of each process, by label: who was started again is held against its earlier life."""
         result = {}
-        for label, pid in self.processes().items():
+        beside = {f"launcher of {host}": launcher for host, launcher in self.launchers.items()} | self.named
+        for label, pid in {**self.processes(), **{name: process.pid for name, process in beside.items()}}.items():
             try:
                 pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
             except (OSError, IndexError):
@@ -336,10 +348,17 @@ class Launched:
             subprocess.run(["umount", str(self.disk)], check=True)
         if self.hosts:
             self.hosts.close()
-        # Not those of a process whose number begins with the digits of ours.
         shutil.rmtree(self.state, ignore_errors=True)
-        for file in MEMORY.glob(f"trench_*_{self.shared_memory()}[!0-9]*"):
+        # What iceoryx2 keeps for the next process of these names: an empty folder, and a page that says that there is nobody.
+        files = (file for found in self.shared() for file in [found, *found.rglob("*")] if file.is_file())
+        self.left = [file.name for file in files if file.suffix != ".global_mgmt"]
+        for file in self.shared():
             if file.is_dir():
                 shutil.rmtree(file, ignore_errors=True)
             else:
                 file.unlink(missing_ok=True)
+
+    def shared(self) -> list[Path]:
+        """What there is of its shared memory."""
+        # Not that of a process whose number begins with the digits of ours.
+        return sorted(MEMORY.glob(f"trench_*_{self.shared_memory()}[!0-9]*"))

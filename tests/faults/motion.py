@@ -1,6 +1,7 @@
 """Whether robots move only on what is new enough, and when they stand: from ground truth."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bag import STANDS, TURNS, Run, Series
@@ -55,10 +56,10 @@ class Span:
     following: float | None = None
 
 
-def spans(bag: Run, began: float, until: float) -> list[Span]:
-    """Those of every robot between two times."""
+def spans(bag: Run, began: float, until: float, without: Sequence[str] = ()) -> list[Span]:
+    """Those of every robot but some between two times."""
     found: list[Span] = []
-    for series in bag.truth.values():
+    for series in (series for robot, series in bag.truth.items() if robot not in without):
         span = None
         for at, state in series.between(began, until):
             moving = moves(state)
@@ -82,9 +83,9 @@ def rest(bag: Run, began: float, until: float) -> float:
     return max((span.following - span.first for span in spans(bag, began, until) if not span.moving and span.following), default=0.0)
 
 
-def idle(bag: Run, began: float, until: float) -> float:
-    """How long a robot stood at most, whether it moved on or not."""
-    return max(((span.following or until) - span.first for span in spans(bag, began, until) if not span.moving), default=0.0)
+def idle(bag: Run, began: float, until: float, without: Sequence[str]) -> float:
+    """How long a robot, but for some, stood at most, whether it moved on or not."""
+    return max(((span.following or until) - span.first for span in spans(bag, began, until, without) if not span.moving), default=0.0)
 
 
 def stale(bag: Run, basis: dict[str, Series]) -> list[str]:

@@ -9,16 +9,17 @@ HEAD = """# Faults
 
 What `scripts/faults` did to a running formation, and what came of it. Each row is one fault of
 [the matrix](../tests/faults/matrix.yaml), met by four robots on their way in the square ([config/formations/square_slow.yaml](../config/formations/square_slow.yaml)),
-as processes in real time on the simulated test bed, judged by ground truth, diagnostics and the bytes on the serial line (tests/faults/judge.py). Some
-runs are half as fast ([square_slower.yaml](../config/formations/square_slower.yaml)), one is a column behind a moving target. Times are
+as processes in real time on the simulated test bed, judged by ground truth, diagnostics and the bytes on the serial line (tests/faults/judge.py, which judge_test.py judges). Some
+runs are half as fast ([square_slower.yaml](../config/formations/square_slower.yaml)), two are a column behind a moving target. Times are
 the worst of all seeds that were run:
 
-- no contact; no robot drives or turns on information older than 0.25 s, a frame, and what braking takes from its speed of then; the
-  victim ends and no other process before the run is over, with whatever exit code; commands of the robots' own controllers finite and within
-  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second. Each speed
+- no contact from the start of the run to its end; no robot drives or turns on information older than 0.25 s, a frame, and what braking takes from its speed of then; the
+  victim ends and no other process before the run is over, on any host, with whatever exit code, and none leaves anything in shared memory; commands of the robots' own controllers finite and within
+  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second, and where the launch records one itself,
+  that is whole and has at most a second less (and a pause of its recorder). Each speed
   that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
   old commands, and nobody else's;
-- in a dozen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
+- in seventeen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
   against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
   died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; where nobody can know of it, why;

@@ -1,0 +1,181 @@
+"""Shows that the judge sees what it is there for: a good run, and one doctored run for each criterion.
+
+usage: python -m unittest judge_test, in this folder and the environment of scripts/ros-venv; scripts/test does that.
+"""
+
+import binascii
+import struct
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+import judge
+from bag import Run, Series
+from motion import FRAME
+from wheels import PIECE, SPEED_TIMES_TIMER
+
+# s, when the run begins, its fault begins and is over, and the run ends.
+T0, BEGAN, ENDED, OVER = 1000.0, 1010.0, 1011.0, 1030.0
+SPEED = 0.1
+FAULT = {"name": "a-fault", "says": "camera: frozen"}
+RUN = {"name": "a-run", "arguments": {"duration": "30.0"}, "faults": [FAULT]}
+STAMPS = [T0 - 1.0 + FRAME * step for step in range(int((OVER - T0 + 1.5) / FRAME))]
+LOG = "[ERROR] [rf_bridge-3]: process has died [pid 12, signal: 9 (SIGKILL)]\n"
+OPERATOR = "[INFO] [operator-9]: process has finished cleanly [pid 19]\n"
+
+
+def stuffed(body: bytes) -> bytes:
+    """COBS of less than 254 bytes."""
+    blocks = (body + b"\0").split(b"\0")[:-1]
+    return b"".join(bytes([len(block) + 1]) + block for block in blocks) + b"\0"
+
+
+def packet(speed: float) -> bytes:
+    """Tells robot1's wheels one speed (docs/protocols/radio.md)."""
+    timer = round(SPEED_TIMES_TIMER / speed)
+    body = bytes([0x20, 0x20]) + bytes(7) + struct.pack("<BIHHB", 0, 1 << 1, timer, timer, 0)
+    return stuffed(body + binascii.crc_hqx(body, 0xFFFF).to_bytes(2, "little"))
+
+
+class Judged(unittest.TestCase):
+    """A robot that drives straight on behind its goal point, and stands while its camera is frozen."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.bag = Run(self.folder)
+        self.bag.t0, self.bag.stopped = T0, OVER
+        self.bag.truth["robot1"], self.bag.commands["robot1"], self.bag.stamps["robot1"] = Series(), Series(), Series()
+        place, pieces = 0.0, []
+        for at in STAMPS:
+            drives = T0 <= at < OVER and not BEGAN + 0.1 <= at < ENDED
+            place += SPEED * FRAME if drives else 0.0
+            self.bag.truth["robot1"].add(at, (place, 0.0, SPEED if drives else 0.0, 0.0))
+            self.bag.goals.add(at, {"robot1": (place, 0.0)})
+            self.bag.log_times.append(at)
+            if drives:
+                self.bag.commands["robot1"].add(at, (SPEED, 0.0))
+                self.bag.stamps["robot1"].add(at, at)
+                pieces.append((at + 0.001, packet(SPEED)))
+        self.bag.diagnostics = [(BEGAN + 0.1, "/overhead_localizer: camera: frozen", b"\2")]
+        self.told(pieces)
+        self.evidence = judge.Evidence(
+            bag=self.folder, logs={"base": OPERATOR}, exit_code=0, memory=[], alive_after=None, own_bag=self.folder, binaries=self.folder,
+            seen=self.folder, tap=self.folder / "tap", spoken=self.folder / "spoken", refused=[], missing=[], left=[],
+        )
+
+    def told(self, pieces: list[tuple[float, bytes]]) -> None:
+        """What the tap of the serial line has."""
+        (self.folder / "tap").write_bytes(b"".join(PIECE.pack(at, len(piece)) + piece for at, piece in pieces))
+
+    def problems(self, fault: dict | None = None, run: dict | None = None, **evidence) -> str:
+        """What the judge has against the run."""
+        fault = FAULT | (fault or {})
+        run, evidence = RUN | {"faults": [fault]} | (run or {}), replace(self.evidence, **evidence)
+        verdict = judge.one(self.bag, run, fault, (BEGAN, ENDED, OVER + 1.0), evidence)
+        return "; ".join(verdict.problems + judge.whole(self.bag, run, evidence) + judge.contacts(self.bag, [(fault, BEGAN, ENDED)]))
+
+    def moved(self, since: float, until: float, speed: float) -> None:
+        """Other speeds of the robot, wherever it is."""
+        series = self.bag.truth["robot1"]
+        series.values = [(*value[:2], speed, 0.0) if since <= at < until else value for at, value in zip(series.times, series.values)]
+
+    def test_a_good_run_passes(self):
+        self.assertEqual(self.problems({"stops": True}), "")
+
+    def test_contacts_count_whenever_they_are(self):
+        self.bag.contacts = [(T0 + 1.0, "robot1 touches robot2")]
+        self.assertIn("contact: robot1 touches robot2", self.problems())
+        self.bag.contacts = [(BEGAN + 0.1, "robot1 touches robot2")]
+        self.assertIn("contact", self.problems())
+        self.assertNotIn("contact", self.problems({"touches": "robot1"}))
+
+    def test_nobody_but_the_victim_may_end(self):
+        self.assertIn("rf_bridge-3 on base ended too: died signal: 9 (SIGKILL)", self.problems(logs={"base": LOG + OPERATOR}))
+        self.assertEqual(self.problems({"pid": 12}, logs={"base": LOG + OPERATOR}), "")
+        self.assertEqual(self.problems(logs={"base": OPERATOR + LOG}), "")
+        finished = LOG.replace("died", "finished cleanly").replace(", signal: 9 (SIGKILL)", "")
+        self.assertIn("ended too", self.problems(logs={"base": OPERATOR, "robot2": finished}))
+        self.assertIn("view ended too", self.problems(missing=["view"]))
+        self.assertEqual(self.problems({"kill": "view", "gone": True, "pid": 12}, missing=["view"]).count("ended too"), 0)
+        self.assertIn("the run ended with 11", self.problems(exit_code=11))
+
+    def test_a_run_must_last(self):
+        self.bag.stopped = OVER - 5.0
+        self.assertIn("the run was stopped 25.0 s after the start", self.problems())
+
+    def test_a_fault_must_be_named_in_time_and_not_before(self):
+        said = self.bag.diagnostics[0][1]
+        for at, complaint in ((BEGAN + 0.7, "named it within 0.5 s"), (BEGAN - 0.3, "was said 0.30 s before it")):
+            self.bag.diagnostics = [(at, said, b"\2")]
+            self.assertIn(complaint, self.problems())
+        self.bag.diagnostics = [(BEGAN + 0.1, said, b"\0")]
+        self.assertIn("named it", self.problems())
+        self.assertIn("does not say what names it", self.problems({"says": None}))
+
+    def test_robots_must_stand_where_control_is_not_safe(self):
+        self.moved(BEGAN + 0.5, BEGAN + 0.6, SPEED)
+        self.assertIn("robot1 stood after 0.5", self.problems({"stops": True}))
+        self.moved(BEGAN - 2.0, BEGAN, 0.0)
+        self.assertIn("robot1 stood before it", self.problems({"stops": True}))
+
+    def test_robots_must_drive_where_nothing_keeps_them(self):
+        self.assertIn("a robot stood for 0.8", self.problems({"drives": 0.3}))
+        self.assertEqual(self.problems({"drives": 1.0}), "")
+        self.assertEqual(self.problems({"drives": 0.3, "halts": ["robot1"]}), "")
+
+    def test_no_robot_moves_on_what_is_old(self):
+        self.told([(at + 0.001, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 5.0])
+        self.assertIn("robot1 moves at 5.", self.problems())
+
+    def test_wheels_turn_on_young_commands_of_their_own_controller_alone(self):
+        self.told([(at + 0.001, packet(0.2)) for at in STAMPS if T0 <= at < OVER])
+        self.assertIn("which no command says", self.problems())
+        self.told([(at + 0.5, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 9.0] + [(BEGAN + 0.9, packet(SPEED))])
+        self.assertIn("which no command says", self.problems())
+        self.told([])
+        self.assertIn("nothing was said to wheels", self.problems())
+
+    def test_no_burst_of_old_commands(self):
+        for step in range(9):
+            self.bag.commands["robot1"].add(ENDED + 0.01 * step, (SPEED, 0.0))
+            self.bag.stamps["robot1"].add(ENDED + 0.01 * step, BEGAN)
+        for series in (self.bag.commands["robot1"], self.bag.stamps["robot1"]):
+            pairs = sorted(zip(series.times, series.values))
+            series.times, series.values = [at for at, _ in pairs], [value for _, value in pairs]
+        self.assertIn("was commanded to move on information of", self.problems({"pause": "overhead_localizer"}))
+
+    def test_commands_are_numbers_within_limits(self):
+        for command in ((0.4, 0.0), (0.0, 9.0), (float("nan"), 0.0), (float("inf"), 0.0)):
+            self.bag.commands["robot1"].values[5] = command
+            self.assertIn("is beyond its limits", self.problems())
+
+    def test_robots_drive_again_and_form_in_time(self):
+        self.moved(ENDED, ENDED + 2.5, 0.0)
+        self.assertIn("not all robots were driven within 2.0 s of its end", self.problems())
+        self.bag.goals.values = [{"robot1": (value["robot1"][0] + 0.05, 0.0)} for value in self.bag.goals.values]
+        self.assertIn("the formation did not stand within 10.0 s", self.problems())
+
+    def test_memory_does_not_grow_and_none_is_left(self):
+        memory = [{"base:rf_bridge-3": 20_000_000}, {"base:rf_bridge-3": 31_000_000}]
+        self.assertIn("base:rf_bridge-3 grew by 11.0 MB", self.problems(memory=memory))
+        self.assertIn("is left in shared memory", self.problems(left=["trench_0_a_service"]))
+
+    def test_bags_have_no_gaps(self):
+        self.bag.log_times = [at for at in self.bag.log_times if not T0 + 2.0 < at < T0 + 3.5]
+        self.assertIn("the bag has a gap of 1.5 s", self.problems())
+        self.assertIn("the bag of the launch has lost", self.problems(run={"arguments": {"duration": "30.0", "record": "true"}}))
+
+    def test_who_does_not_hear_its_leader_follows_the_target_meanwhile(self):
+        behind, alone = {"robot4": (0, 2, "robot1")}, {"robot4": (0, 2, "")}
+        for at, made in ((T0, behind), (BEGAN + 0.6, alone), (ENDED + 2.0, behind)):
+            self.bag.assignments.add(at, made)
+        self.assertEqual(self.problems({"retargets": "robot4"}), "")
+        self.bag.assignments.values[1] = behind
+        self.assertIn("robot4 followed 'robot1' before, 'robot1' meanwhile", self.problems({"retargets": "robot4"}))
+
+
+if __name__ == "__main__":
+    unittest.main()
