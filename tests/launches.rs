@@ -65,6 +65,19 @@ fn three_robots_pass_a_long_corridor() {
     }
 }
 
+/// With its vertex within the walls the team rests there: who is ahead closes the corridor where it stands, not all of it.
+#[test]
+fn three_robots_rest_in_a_long_corridor() {
+    let text = std::fs::read_to_string(root().join("config/formations/corridor.yaml")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("corridor.yaml");
+    std::fs::write(&file, text.replace("[3.50, 1.40]", "[2.50, 1.40]")).unwrap();
+    let finished = stands("corridor.launch.yaml", &[("formation", file.to_str().unwrap())]);
+    let rest = |track: &Track| track.poses.last().unwrap().x;
+    let places: Vec<f64> = finished.run.robots.values().map(rest).collect();
+    assert!(places.len() == 3 && places.iter().all(|x| (1.2..2.6).contains(x)), "{places:?}");
+}
+
 #[test]
 fn a_formation_larger_than_the_field_is_refused_where_it_is_launched() {
     let refused = |file: &str, formation: &str| -> String {

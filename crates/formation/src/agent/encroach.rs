@@ -3,7 +3,7 @@ use super::{Agent, Encroaching, Surroundings};
 use crate::Vector2;
 use crate::curve::{Interval, encroached};
 use crate::hull::{ApparentObstacle, HullError, Obstacle, Outline, Shape};
-use crate::seek::{Fragments, apparent_obstacles};
+use crate::seek::{Fragments, apparent_obstacles, apparent_obstacles_apart};
 use crate::trench::Trench;
 use nalgebra::Isometry2;
 
@@ -40,7 +40,7 @@ impl<T: Trench> Agent<T> {
         match self.settings.encroaching {
             Encroaching::Nothing => self.fragments = Fragments::whole(whole),
             Encroaching::Obstacles => self.fragments = self.left_by(around, around.apparent),
-            Encroaching::ObstaclesAndRobots(radius) => {
+            Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndRobotsApart(radius) => {
                 let robots = self.robots_there(around, radius);
                 self.find_among(around, robots, radius)?;
             }
@@ -86,7 +86,9 @@ impl<T: Trench> Agent<T> {
     /// Robots ahead whose position is not finite.
     pub fn merged(&self, around: &Surroundings<'_>) -> Result<Vec<ApparentObstacle>, HullError> {
         match self.settings.encroaching {
-            Encroaching::ObstaclesAndRobots(radius) => self.merge(around, &self.robots_there(around, radius), radius),
+            Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndRobotsApart(radius) => {
+                self.merge(around, &self.robots_there(around, radius), radius)
+            }
             Encroaching::ObstaclesAndPlaces(radius) => self.merge(around, around.places, radius),
             Encroaching::Nothing | Encroaching::Obstacles => Ok(Vec::new()),
         }
@@ -99,6 +101,9 @@ impl<T: Trench> Agent<T> {
         radius: f64,
     ) -> Result<Vec<ApparentObstacle>, HullError> {
         let clearance = self.settings.clearance;
+        if matches!(self.settings.encroaching, Encroaching::ObstaclesAndRobotsApart(_)) {
+            return apparent_obstacles_apart(around.apparent, robots, radius, clearance);
+        }
         apparent_obstacles(around.real, robots, radius, clearance, |a, b| around.parted(a, b, clearance))
     }
 

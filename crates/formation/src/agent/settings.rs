@@ -57,6 +57,9 @@ pub enum Encroaching {
     /// Robots ahead too (step (1) of 7.5.2), as obstacles of this radius (m), sought anew at every tick: those that have come to the
     /// segment, whose repulsive area reaches it. With rho_hat less the obstacles' cut no place is left in anybody's zone 2.
     ObstaclesAndRobots(f64),
+    /// The same, but a robot ahead joins only what of obstacles is near to it: it rests in a corridor without closing all of it, see
+    /// [`apparent_obstacles_apart`](crate::seek::apparent_obstacles_apart) (9.2).
+    ObstaclesAndRobotsApart(f64),
     /// The places that robots ahead have chosen, from the moment at which they choose them, as obstacles of this radius (m); and a robot
     /// chooses its own within its leader's neutral zone, as it will be once the leader stands at its place. Beyond the thesis, where
     /// robots learn only from those that have arrived where they cannot stay.
@@ -67,7 +70,9 @@ impl Encroaching {
     /// The radius that robots ahead encroach with, m; none where they do not.
     pub fn robot_radius(self) -> Option<f64> {
         match self {
-            Self::ObstaclesAndRobots(radius) | Self::ObstaclesAndPlaces(radius) => Some(radius),
+            Self::ObstaclesAndRobots(radius)
+            | Self::ObstaclesAndRobotsApart(radius)
+            | Self::ObstaclesAndPlaces(radius) => Some(radius),
             Self::Nothing | Self::Obstacles => None,
         }
     }

@@ -3,6 +3,7 @@
 //! [`Shape`] is the apparent obstacle of one obstacle, [`combine`] joins those between which no robot can pass,
 //! [`Outline`] measures distances from either.
 mod area;
+mod clip;
 mod combine;
 mod convex;
 mod error;

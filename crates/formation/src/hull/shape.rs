@@ -48,7 +48,7 @@ impl Shape {
     /// Hull of several shapes, which must not be empty. It is grown by the least of their radii; rounder corners become
     /// circumscribed polygons, so that the hull contains the exact one and exceeds it by less than 0.5 % of the
     /// difference of the radii.
-    pub(super) fn around<'a>(shapes: impl Iterator<Item = &'a Self> + Clone) -> Self {
+    pub(crate) fn around<'a>(shapes: impl Iterator<Item = &'a Self> + Clone) -> Self {
         let radius = shapes.clone().map(|shape| shape.radius).fold(f64::INFINITY, f64::min);
         let mut points = Vec::new();
         for shape in shapes {

@@ -257,11 +257,18 @@ fn encroaching(map: &Map<'_>) -> Result<Encroaching, ConfigError> {
     if map.opt_node("encroaching").is_none() {
         return Ok(Encroaching::Nothing);
     }
-    let kinds = [("nothing", 0), ("obstacles", 1), ("obstacles_and_robots", 2), ("obstacles_and_places", 3)];
+    let kinds = [
+        ("nothing", 0),
+        ("obstacles", 1),
+        ("obstacles_and_robots", 2),
+        ("obstacles_and_places", 3),
+        ("obstacles_and_robots_apart", 4),
+    ];
     match map.one_of("encroaching", &kinds)? {
         0 => Ok(Encroaching::Nothing),
         1 => Ok(Encroaching::Obstacles),
         3 => Ok(Encroaching::ObstaclesAndPlaces(positive(map, "body_radius")?)),
+        4 => Ok(Encroaching::ObstaclesAndRobotsApart(positive(map, "body_radius")?)),
         _ => Ok(Encroaching::ObstaclesAndRobots(positive(map, "body_radius")?)),
     }
 }

@@ -209,6 +209,22 @@ fn corridor_of_9_1() {
     assert!(case.robots.iter().all(|robot| robot.position[0] > 30.0) && case.in_zone_1 == 0.0, "{case:?}");
 }
 
+/// Fig. 9.1 with a team goal in the middle: the robots rest within the corridor, which those ahead close where they are alone; as printed
+/// (step (1) of 7.5.2 with (7.8)) a robot between walls makes one obstacle of them, and leaves those behind it no place.
+#[test]
+fn robots_rest_in_a_corridor() {
+    let text = fs::read_to_string(folder().join("9.1_corridor.yaml")).unwrap().replace("[55.0, 0.0]", "[30.0, 0.0]");
+    let encroaching = |kind: &str| {
+        let text = text.replace("encroaching: obstacles ", &format!("encroaching: {kind}\nbody_radius: 0.5 "));
+        run_scenario(&parse("rest", &text).unwrap(), &[]).0.cases.remove(0)
+    };
+    let case = encroaching("obstacles_and_robots_apart");
+    assert!(case.conforms_after.is_some() && case.in_zone_1 == 0.0, "{case:?}");
+    assert!(case.robots.iter().all(|robot| (1.0..39.0).contains(&robot.position[0])), "{case:?}");
+    assert!(case.obstacles.iter().all(|wall| wall.least_gap > 0.5), "{case:?}");
+    assert!(encroaching("obstacles_and_robots").conforms_after.is_none(), "as printed nobody follows into it");
+}
+
 /// Fig. 9.1 round a bend: through, and without the option that keeps the pieces of its walls apart not at all.
 #[test]
 fn bent_corridor_of_9_1() {

@@ -73,7 +73,7 @@ pub(crate) fn descriptors() -> Vec<ParameterDescriptor> {
         P::string(
             "encroaching",
             "obstacles",
-            "what takes parts of the segment away: nothing, obstacles, robots (both), places (obstacles, and where robots ahead mean to stand)",
+            "what takes parts of the segment away: nothing, obstacles, robots (both), robots_apart (both, and a robot joins what is near of obstacles, no whole walls), places (obstacles, and where robots ahead mean to stand)",
         ),
         P::double("seek.room", 0.1, "m, shorter fragments do not qualify").range(0.0, 1e6),
         P::double("seek.transit_margin", 0.05, "m, by which another nearest point must be nearer").range(0.0, 1e6),
@@ -207,12 +207,13 @@ fn encroaching(
         "nothing" => Ok(Encroaching::Nothing),
         "obstacles" => Ok(Encroaching::Obstacles),
         "robots" => Ok(Encroaching::ObstaclesAndRobots(parameters.f64("body.radius")?)),
+        "robots_apart" => Ok(Encroaching::ObstaclesAndRobotsApart(parameters.f64("body.radius")?)),
         // With the obstacles' cut about it a place takes all of its zone 2.
         "places" => Ok(Encroaching::ObstaclesAndPlaces((zoning.radii().rho_hat - potential.cut()).max(0.0))),
         _ => Err(parameters.error(
             "encroaching",
             "is nothing that encroaches",
-            "write nothing, obstacles, robots or places",
+            "write nothing, obstacles, robots, robots_apart or places",
         )),
     }
 }
