@@ -14,6 +14,7 @@ mod limits;
 mod potential;
 mod queue;
 mod report;
+mod room;
 mod scenario;
 mod standing;
 mod team;

@@ -4,6 +4,7 @@ use crate::controller::chain_damping;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::potential::potential;
+use crate::room::room;
 use crate::verdict::number;
 use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
@@ -153,7 +154,7 @@ pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
 fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
     let curve = Curve::new(&task.segment, false, false).ok();
-    let room = curve.map(|curve| room(subject, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
+    let room = curve.map(|curve| room(subject, &curve, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
     room.into_iter().chain([connection(subject, radii, robots)]).collect()
 }
 
@@ -164,7 +165,7 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
     let room = hulls.map(|hulls| {
         let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
-        room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat)
+        room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
     });
     room.into_iter().chain([connection(subject, radii, &task.robots)]).collect()
 }
@@ -201,19 +202,6 @@ fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) 
         format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {} m", number(width))
     };
     Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
-}
-
-/// Whether the fragments have a place for every robot.
-fn room(subject: &str, fragments: &[(f64, f64)], robots: usize, rho_hat: f64) -> Verdict {
-    let places: usize = fragments.iter().map(|(from, to)| ((to - from) / rho_hat) as usize + 1).sum();
-    let length: f64 = fragments.iter().map(|(from, to)| to - from).sum();
-    let on = format!("{} m in {} fragments", number(length), fragments.len());
-    let finding = if places >= robots {
-        format!("{on} have {places} places for {robots} robots")
-    } else {
-        format!("{on} have {places} places, but there are {robots} robots: lengthen the segment or move obstacles away")
-    };
-    Verdict::new("room", subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
 }
 
 /// Whether every robot begins within reach of its leader.

@@ -57,9 +57,71 @@ fn clearance_without_a_body() {
     assert!(!narrow.holds && narrow.finding.contains("make the clearance 1 m"), "{narrow:?}");
 }
 
+/// Neighbouring fragments share their places: five of them, on 10 m, with a place for one robot each, have room for three robots 4 m apart.
+#[test]
+fn room_on_fragments_is_not_the_sum_of_theirs() {
+    let few = "\
+name: \"few\"
+kind: nearest_points
+duration: 1.0
+step: 0.01
+method: semi_implicit_euler
+segment: {kind: line, points: [[0.0, 0.0], [10.0, 0.0]]}
+team_goal: [10.0, 0.0]
+trench: {kind: hyperbolic, alpha: 10.0, a: 1.0}
+damping: 5.0
+zoning: {rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2}
+obstacles:
+- {disc: [2.0, 0.0], radius: 0.1}
+- {disc: [4.0, 0.0], radius: 0.1}
+- {disc: [6.0, 0.0], radius: 0.1}
+- {disc: [8.0, 0.0], radius: 0.1}
+clearance: 1.0
+obstacle_potential: {pole: 0.05, cut: 0.1, strength: 10.0, m: 2}
+encroaching: obstacles
+robots:
+- {position: [10.0, 4.0], velocity: [0.0, 0.0]}
+- {position: [8.0, 8.0], velocity: [0.0, 0.0]}
+- {position: [5.0, 4.0], velocity: [0.0, 0.0]}
+- {position: [2.0, 8.0], velocity: [0.0, 0.0]}
+- {position: [0.0, 4.0], velocity: [0.0, 0.0]}
+figures:
+- {figure: \"1\", title: \"t\", draws: trajectories}
+";
+    let room = |text: &str| {
+        let verdicts = scenario("few", &trench_scenario::parse("few", text).unwrap());
+        verdicts.into_iter().find(|verdict| verdict.check == "room").unwrap()
+    };
+    let five = room(few);
+    assert!(
+        !five.holds
+            && five.finding.contains("in 5 fragments have 3 places, 4 m from each other, but there are 5 robots"),
+        "{five:?}"
+    );
+    assert!(
+        room(&few.replace(
+            "- {position: [2.0, 8.0], velocity: [0.0, 0.0]}\n- {position: [0.0, 4.0], velocity: [0.0, 0.0]}\n",
+            ""
+        ))
+        .holds
+    );
+    // There and back 1 m beside: six places along the way, three in the plane.
+    let hairpin =
+        few.replace("kind: line", "kind: polyline").replace("[10.0, 0.0]]}", "[10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]}");
+    let hairpin: String =
+        hairpin.lines().filter(|line| !line.contains("radius: 0.1")).map(|line| format!("{line}\n")).collect();
+    let noted = room(&hairpin.replace("obstacles:\n", "obstacles: []\n"));
+    assert!(noted.holds && noted.note && noted.finding.contains("neither proved nor refuted"), "{noted:?}");
+}
+
 #[test]
 fn chains_that_do_not_fit() {
-    check("7.10.yaml", "[100.0, 100.0]]", "[5.0, 5.0]]", &[("room", "4 places, but there are 10 robots")]);
+    check(
+        "7.10.yaml",
+        "[100.0, 100.0]]",
+        "[5.0, 5.0]]",
+        &[("room", "4 places, 4 m from each other, but there are 10 robots")],
+    );
     check(
         "7.10.yaml",
         "{position: [0.7206, -1.0582]",
