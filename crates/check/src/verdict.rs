@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// One thing that was looked at, and whether it is as the theory asks.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// What was looked at: `gains`, `potential`, `zones` ...
     pub check: &'static str,
@@ -17,6 +17,26 @@ pub struct Verdict {
     pub finding: String,
     /// The equation or section that decides.
     pub equation: &'static str,
+    /// The numbers of the finding, all of them and unrounded, where there are more than it tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub values: Option<Values>,
+}
+
+/// Numbers for programs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Values {
+    /// Of `chain`.
+    Chain {
+        /// What |e_j| never exceeds, by rank: of all robots of the chain, but of no more than a hundred. m and m/s together.
+        bounds: Vec<f64>,
+        /// The same by (8.26) as corrected.
+        recursive_bounds: Vec<f64>,
+        /// How many robots in one chain, all starting alike, stay within the tolerance.
+        longest: usize,
+        /// Ranks that were computed: where `longest` is as many, longer chains may stay within, too.
+        computed: usize,
+    },
 }
 
 impl Verdict {
@@ -28,7 +48,8 @@ impl Verdict {
         finding: impl Into<String>,
         equation: &'static str,
     ) -> Self {
-        Self { check, subjects: vec![subject.to_owned()], holds, note: false, finding: finding.into(), equation }
+        let (subjects, finding) = (vec![subject.to_owned()], finding.into());
+        Self { check, subjects, holds, note: false, finding, equation, values: None }
     }
 
     /// A note about one subject.

@@ -114,6 +114,20 @@ figures:
     assert!(noted.holds && noted.note && noted.finding.contains("neither proved nor refuted"), "{noted:?}");
 }
 
+/// Ten robots of 6.5: people are told of eight ranks, programs of all, and how many robots would stay within.
+#[test]
+fn all_ranks_of_6_5_are_told() {
+    let chain = judged("6.5.yaml", "", "").into_iter().find(|verdict| verdict.check == "chain").unwrap();
+    let told = serde_json::to_value(&chain).unwrap();
+    let values = &told["values"];
+    assert_eq!(values["bounds"].as_array().unwrap().len(), 10, "{told}");
+    assert_eq!(values["recursive_bounds"].as_array().unwrap().len(), 10, "{told}");
+    assert!(values["longest"].is_u64() && values["computed"].is_u64(), "{told}");
+    // Others have none.
+    let others = judged("6.5.yaml", "", "").into_iter().filter(|verdict| verdict.check == "room");
+    assert!(others.map(|verdict| serde_json::to_value(verdict).unwrap()).all(|room| room.get("values").is_none()));
+}
+
 #[test]
 fn chains_that_do_not_fit() {
     check(
