@@ -37,6 +37,13 @@ pub enum Values {
         /// Ranks that were computed: where `longest` is as many, longer chains may stay within, too.
         computed: usize,
     },
+    /// Of `gains` of (3.13): the guidelines of 4.3.2 for its K1 and K2.
+    Gains {
+        /// Guideline (2), K1 + (c1 + c2) K2: as far from both bounds of the stable zone as can be.
+        k3_centred: f64,
+        /// Guideline (3), K1 + c1 K2: as far as can be from both bounds of its upper part, K3 >= K1.
+        k3_centred_above: f64,
+    },
 }
 
 impl Verdict {
