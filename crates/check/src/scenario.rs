@@ -49,7 +49,8 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 };
                 let damped = Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)");
                 let able = bounds.map(|bounds| {
-                    let largest = Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0 };
+                    let largest =
+                        Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0, at_once: [0, 0] };
                     of_scenario(&name, &largest, &bounds.limits)
                 });
                 [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able)
@@ -173,8 +174,9 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
-    let trench = steepest(&task.law.trench);
-    of_scenario(subject, &Largest { trench, zones: task.zoning.full_acceleration(), obstacles }, limits)
+    let (trench, zones) = (steepest(&task.law.trench), task.zoning.full_acceleration());
+    let at_once = [task.robots.len().saturating_sub(1), task.obstacles.len()];
+    of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
 }
 
 /// The largest slope of a trench; infinite of one that is not admissible.

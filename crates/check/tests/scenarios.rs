@@ -1,6 +1,6 @@
 //! Scenario files as they are shipped, judged.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use trench_check::{Verdict, scenario};
+#![expect(clippy::unwrap_used, clippy::panic, reason = "a test that cannot go on fails")]
+use trench_check::{Values, Verdict, scenario};
 
 /// The verdicts on a shipped scenario with `old` replaced by `new`.
 fn judged(name: &str, old: &str, new: &str) -> Vec<Verdict> {
@@ -126,6 +126,42 @@ fn all_ranks_of_6_5_are_told() {
     // Others have none.
     let others = judged("6.5.yaml", "", "").into_iter().filter(|verdict| verdict.check == "room");
     assert!(others.map(|verdict| serde_json::to_value(verdict).unwrap()).all(|room| room.get("values").is_none()));
+}
+
+/// (7.12) sums over all robots ahead and all obstacles: what fits for one of each is no claim about several.
+#[test]
+fn limits_speak_of_one_robot_and_one_obstacle() {
+    let limits = |name: &str, old: &str, new: &str| {
+        judged(name, old, new).into_iter().find(|verdict| verdict.check == "limits").unwrap()
+    };
+    let ten = limits("9.2_bounded.yaml", "", "");
+    assert!(ten.holds && ten.note, "{ten:?}");
+    assert!(ten.finding.contains("while no more than these act at once. Several add up (7.12)"), "{ten:?}");
+    // Nine robots ahead with 1 m/s^2 each, four discs with 3 m/s^2, the trench with 1 m/s^2: 22 m/s^2 hold all of them at once.
+    let all = limits("9.2_bounded.yaml", "acceleration: 5.0}", "acceleration: 22.0}");
+    assert!(all.holds && !all.note && all.finding.contains("V' <= 0 within limits"), "{all:?}");
+    let nearly = limits("9.2_bounded.yaml", "acceleration: 5.0}", "acceleration: 21.9}");
+    assert!(nearly.holds && nearly.note, "{nearly:?}");
+    // Robots of 5.6 do not see each other.
+    let alone = limits("5.6_bounded.yaml", "", "");
+    assert!(alone.holds && !alone.note, "{alone:?}");
+}
+
+/// 4.4.4 and 4.4.3 have K1 = 20, K2 = 1, for which the thesis advises 21.80 and 22.30; so does the verdict, whether K3 is in the zone or not.
+#[test]
+fn guidelines_of_4_3_2_are_told() {
+    for name in ["4.4.4.yaml", "4.4.3_case_one.yaml"] {
+        let gains = judged(name, "", "").into_iter().find(|verdict| verdict.check == "gains").unwrap();
+        assert!(
+            gains.finding.contains("4.3.2: K3 = 21.8, the middle") && gains.finding.contains("or K3 = 22.3, "),
+            "{gains:?}"
+        );
+        let Some(Values::Gains { k3_centred, k3_centred_above }) = gains.values else { panic!("{gains:?}") };
+        assert!((k3_centred - 21.801_669_424).abs() < 1e-8 && (k3_centred_above - 22.301_669_424).abs() < 1e-8);
+    }
+    // Laws without K3 have no such choice.
+    let nominal = judged("4.4.1_law_3.10.yaml", "", "");
+    assert!(nominal.iter().all(|verdict| verdict.values.is_none()), "{nominal:?}");
 }
 
 #[test]
