@@ -1,14 +1,12 @@
 //! How far errors may grow along a chain (chapter 8).
 
-use crate::Verdict;
+use crate::bounds::{Bounds, LONGEST};
 use crate::verdict::number;
-use trench_formation::stability::{
-    Coupling, QueueRobot, input_to_state, longest_within, recursive_bounds, uniform_bounds,
-};
+use crate::{Values, Verdict};
 
 const EQUATION: &str = "|e_j(t)| <= sum over k of |[exp(W t)]_jk| |e_k(0)|, W of (8.28); beside it (8.26) as corrected";
-/// Longer chains are not followed to their end, and not promised anything.
-const LONGEST: usize = 100;
+/// People are told of so many ranks, programs of all.
+const TOLD: usize = 8;
 
 /// A chain whose robots all have the same queue law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,67 +27,77 @@ pub struct ChainOfRobots<'a> {
     pub acceleration: Option<f64>,
 }
 
+impl ChainOfRobots<'_> {
+    /// |e_1(0)|.
+    pub(crate) fn first_error(&self) -> f64 {
+        libm::hypot(self.initial_error, self.setting_out)
+    }
+}
+
 /// Judges whether all errors of a chain stay within the tolerance, under the realisable queue law (8.11).
 pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
-    let verdict = |holds, finding: String| Verdict::new("chain", subject, holds, finding, EQUATION);
-    let (position, velocity) = chain.gains;
-    let rest = chain.robots.min(LONGEST);
-    let robot = QueueRobot::double_integrator_with(position, velocity);
-    let mut errors = vec![chain.initial_error; rest];
-    if let Some(first) = errors.first_mut() {
-        *first = libm::hypot(*first, chain.setting_out);
-    }
-    let bounds = uniform_bounds(&robot, Coupling::Realisable, &errors);
-    // All robots behind the first are alike.
-    let recursion = input_to_state(&[robot.clone(), robot], Coupling::Realisable, 0.5);
-    let gains = format!("K = ({}, {})", number(position), number(velocity));
-    let (bounds, recursion) = match (bounds, recursion) {
-        (Err(wrong), _) | (_, Err(wrong)) => return verdict(false, format!("{gains}: {wrong}")),
-        (Ok(bounds), Ok(recursion)) => (bounds, recursion),
+    let Bounds { bounds, recursive, longest, computed } = match Bounds::of(chain) {
+        Ok(bounds) => bounds,
+        Err(wrong) => {
+            return Verdict::new("chain", subject, false, format!("{}: {wrong}", gains(chain)), EQUATION);
+        }
     };
-    let recursion: Vec<_> = (0..rest).map(|rank| recursion[rank.min(1)]).collect();
-    let asked = libm::hypot(position, velocity) * bounds.iter().copied().fold(0.0, f64::max);
+    let asked = libm::hypot(chain.gains.0, chain.gains.1) * bounds.iter().copied().fold(0.0, f64::max);
     let beyond = chain.acceleration.filter(|able| asked > *able);
-    let (last, loose) = (bounds.last().copied(), recursive_bounds(&recursion, &errors));
-    let (last, loose) = (last.unwrap_or(0.0), loose.last().copied().unwrap_or(0.0));
-    let longest = longest_within(&bounds, chain.tolerance);
-    let holds = longest == chain.robots;
-    let ranks: Vec<String> = bounds.iter().take(8).map(|bound| number(*bound)).collect();
-    let more = if bounds.len() > 8 { ", ..." } else { "" };
-    let limit = number(chain.tolerance);
-    let verb = if longest == rest { "stays within" } else { "may leave" };
+    let (last, loose) = (bounds.last().copied().unwrap_or(0.0), recursive.last().copied().unwrap_or(0.0));
+    let (rest, holds) = (bounds.len(), longest >= chain.robots);
+    let verb = if longest >= rest { "stays within" } else { "may leave" };
     let mended = if holds {
-        String::new()
-    } else if longest == rest {
+        format!(", as {}{longest} robots in one chain would", if longest < computed { "up to " } else { "" })
+    } else if longest >= rest {
         format!(": ranks beyond {LONGEST} are not computed, and not promised anything")
     } else {
         format!(": at most {longest} robots in one chain stay within")
     };
-    let law = chain.instead_of.map_or(String::new(), |law| {
-        format!("; law {law} has these gains at the bottom of its trench, but is not this law: zones, limits, obstacles are not in the bound")
-    });
-    let first = if chain.setting_out > 0.0 && rest > 0 {
-        format!(" ({} of the first, whose goal point sets out at {} m/s)", number(errors[0]), number(chain.setting_out))
-    } else {
-        String::new()
-    };
-    let limits = beyond.map_or(String::new(), |able| {
-        format!(
-            "; |K e| may ask for {} m/s^2, robots have {} (motion.acceleration): the bound is that of robots that are not at this limit",
-            number(asked),
-            number(able)
-        )
-    });
-    let found = verdict(
-        holds,
-        format!(
-            "the linear queue law (8.11) with {gains} and errors of {}{first} at the start: rank {rest} {verb} {limit} ({}; by (8.26) \
-             {}){mended}; by rank {}{more}{law}{limits}",
-            number(chain.initial_error),
-            number(last),
-            if loose < 1e6 { number(loose) } else { format!("{loose:.0e}") },
-            ranks.join(", ")
-        ),
+    let ranks: Vec<String> = bounds.iter().take(TOLD).map(|bound| number(*bound)).collect();
+    let more = if rest > TOLD { ", ..." } else { "" };
+    let finding = format!(
+        "the linear queue law (8.11) with {} and errors of {}{} at the start: rank {rest} {verb} {} ({}; by (8.26) {}){mended}; by rank {}{more}{}{}",
+        gains(chain),
+        number(chain.initial_error),
+        first(chain),
+        number(chain.tolerance),
+        number(last),
+        if loose < 1e6 { number(loose) } else { format!("{loose:.0e}") },
+        ranks.join(", "),
+        another_law(chain),
+        beyond.map_or(String::new(), |able| limits(asked, able)),
     );
-    Verdict { note: holds && beyond.is_some(), ..found }
+    let values = Values::Chain { bounds, recursive_bounds: recursive, longest, computed };
+    Verdict {
+        note: holds && beyond.is_some(),
+        values: Some(values),
+        ..Verdict::new("chain", subject, holds, finding, EQUATION)
+    }
+}
+
+fn gains(chain: &ChainOfRobots<'_>) -> String {
+    format!("K = ({}, {})", number(chain.gains.0), number(chain.gains.1))
+}
+
+fn first(chain: &ChainOfRobots<'_>) -> String {
+    if chain.setting_out <= 0.0 || chain.robots == 0 {
+        return String::new();
+    }
+    let (error, speed) = (number(chain.first_error()), number(chain.setting_out));
+    format!(" ({error} of the first, whose goal point sets out at {speed} m/s)")
+}
+
+fn another_law(chain: &ChainOfRobots<'_>) -> String {
+    chain.instead_of.map_or(String::new(), |law| {
+        format!("; law {law} has these gains at the bottom of its trench, but is not this law: zones, limits, obstacles are not in the bound")
+    })
+}
+
+fn limits(asked: f64, able: f64) -> String {
+    format!(
+        "; |K e| may ask for {} m/s^2, robots have {} (motion.acceleration): the bound is that of robots that are not at this limit",
+        number(asked),
+        number(able)
+    )
 }

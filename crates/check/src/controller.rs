@@ -77,7 +77,8 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
         let pull = check_admissibility(&trench, TRENCH_RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
         let full = parameters.f64("zones.full_acceleration")?;
         let zones = if matches!(law, "zoned" | "chain") { full } else { 0.0 };
-        let largest = Largest { trench: pull, zones, obstacles: full };
+        // How many robots and obstacles there will be is not a controller's to know.
+        let largest = Largest { trench: pull, zones, obstacles: full, at_once: [usize::MAX; 2] };
         let oblique = law == "zoned" && !parameters.f64_list("zoned.direction")?.is_empty();
         verdicts.push(of_controller(name, &largest, parameters.f64("motion.acceleration")?, oblique));
     }

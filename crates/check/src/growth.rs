@@ -1,12 +1,10 @@
 //! The chain verdict of a queue, and of a scenario's chain.
 
+use crate::stiffness::stiffness;
 use crate::{ChainOfRobots, Team, Verdict, chain};
 use trench_formation::trench::Trench;
 use trench_formation::zoning::Radii;
 use trench_plan::{Plan, QueuePlan};
-
-/// m from the bottom of a trench, where its slope says how stiff the bottom is.
-const BESIDE: f64 = 1e-6;
 
 /// The chain bound, for robots that start within the queue's tolerance of a place: nobody may reach zone 1 of the one ahead, or under
 /// the queue law, which has no zones, its body. So no error in the distance to the one ahead may exceed the spacing less that.
@@ -33,7 +31,7 @@ pub(crate) fn growth(subject: &str, plan: &Plan, queue: &QueuePlan, team: &Team)
 }
 
 /// The chain bound of robots that have come to rest in the middle of the neutral zone, each disturbed by half the zone's width, as a
-/// note where somebody may reach zone 1. Nothing of one robot, or of trenches with a kink at their bottom, which have no stiffness.
+/// note where somebody may reach zone 1. Nothing of one robot, or of trenches that have no stiffness at their bottom.
 pub(crate) fn growth_at_rest(
     subject: &str,
     law: &str,
@@ -41,15 +39,14 @@ pub(crate) fn growth_at_rest(
     radii: &Radii,
     robots: usize,
 ) -> Option<Verdict> {
-    let bottom = trench.slopes(0.0);
-    if robots < 2 || bottom.left != bottom.right {
+    if robots < 2 {
         return None;
     }
     let half = 0.5 * (radii.rho - radii.rho_hat);
     let of = ChainOfRobots {
         instead_of: Some(law),
         robots,
-        gains: (trench.slopes(BESIDE).right / BESIDE, damping),
+        gains: (stiffness(trench)?, damping),
         initial_error: half,
         setting_out: 0.0,
         tolerance: radii.rho_hat + half - radii.rho_underbar,

@@ -4,6 +4,7 @@
 //! the equation that decides. Nothing reads a file.
 
 mod approach;
+mod bounds;
 mod chain;
 mod controller;
 mod direction;
@@ -14,8 +15,10 @@ mod limits;
 mod potential;
 mod queue;
 mod report;
+mod room;
 mod scenario;
 mod standing;
+mod stiffness;
 mod team;
 mod verdict;
 mod zones;
@@ -30,5 +33,5 @@ pub use report::Report;
 pub use scenario::{infeasible, scenario};
 pub use standing::Standing;
 pub use team::{Along, Start, Team, team};
-pub use verdict::Verdict;
+pub use verdict::{Values, Verdict};
 pub use zones::zones;

@@ -5,7 +5,7 @@ use core::fmt;
 use serde::Serialize;
 
 /// Verdicts in the order in which they were reached; equal ones about several subjects are one.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Report {
     /// Whether all hold.
     pub holds: bool,
@@ -19,8 +19,8 @@ impl Report {
         let mut kept: Vec<Verdict> = Vec::new();
         for verdict in verdicts {
             let same = |other: &&mut Verdict| {
-                (other.check, other.holds, other.note, &other.finding, other.equation)
-                    == (verdict.check, verdict.holds, verdict.note, &verdict.finding, verdict.equation)
+                (other.check, other.holds, other.note, &other.finding, other.equation, &other.values)
+                    == (verdict.check, verdict.holds, verdict.note, &verdict.finding, verdict.equation, &verdict.values)
             };
             match kept.iter_mut().find(same) {
                 Some(other) => {

@@ -4,6 +4,7 @@ use crate::controller::chain_damping;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::potential::potential;
+use crate::room::room;
 use crate::verdict::number;
 use crate::zones::zones;
 use crate::{Approach, Verdict, direction, gains};
@@ -48,7 +49,8 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 };
                 let damped = Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)");
                 let able = bounds.map(|bounds| {
-                    let largest = Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0 };
+                    let largest =
+                        Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0, at_once: [0, 0] };
                     of_scenario(&name, &largest, &bounds.limits)
                 });
                 [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able)
@@ -153,7 +155,7 @@ pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
 fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
     let curve = Curve::new(&task.segment, false, false).ok();
-    let room = curve.map(|curve| room(subject, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
+    let room = curve.map(|curve| room(subject, &curve, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
     room.into_iter().chain([connection(subject, radii, robots)]).collect()
 }
 
@@ -164,7 +166,7 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
     let room = hulls.map(|hulls| {
         let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
-        room(subject, fragments.intervals(), task.robots.len(), radii.rho_hat)
+        room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
     });
     room.into_iter().chain([connection(subject, radii, &task.robots)]).collect()
 }
@@ -172,8 +174,9 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
-    let trench = steepest(&task.law.trench);
-    of_scenario(subject, &Largest { trench, zones: task.zoning.full_acceleration(), obstacles }, limits)
+    let (trench, zones) = (steepest(&task.law.trench), task.zoning.full_acceleration());
+    let at_once = [task.robots.len().saturating_sub(1), task.obstacles.len()];
+    of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
 }
 
 /// The largest slope of a trench; infinite of one that is not admissible.
@@ -201,19 +204,6 @@ fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) 
         format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {} m", number(width))
     };
     Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
-}
-
-/// Whether the fragments have a place for every robot.
-fn room(subject: &str, fragments: &[(f64, f64)], robots: usize, rho_hat: f64) -> Verdict {
-    let places: usize = fragments.iter().map(|(from, to)| ((to - from) / rho_hat) as usize + 1).sum();
-    let length: f64 = fragments.iter().map(|(from, to)| to - from).sum();
-    let on = format!("{} m in {} fragments", number(length), fragments.len());
-    let finding = if places >= robots {
-        format!("{on} have {places} places for {robots} robots")
-    } else {
-        format!("{on} have {places} places, but there are {robots} robots: lengthen the segment or move obstacles away")
-    };
-    Verdict::new("room", subject, places >= robots, finding, "sum over fragments of length / rho_hat + 1 >= n (7.5.1)")
 }
 
 /// Whether every robot begins within reach of its leader.

@@ -1,7 +1,9 @@
 //! What is known of the robots, from a controller's parameters.
 
+use crate::stiffness::stiffness;
 use trench_config::{ConfigError, Parameters};
 use trench_formation::Vector2;
+use trench_plan::trench_from_parameters;
 
 /// What a formation needs to know of the robots that take it up; lengths in m.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,17 +96,11 @@ fn along(parameters: &Parameters) -> Result<Along, ConfigError> {
     Ok(Along { direction, damping: parameters.f64("damping")?, speed: parameters.f64("motion.speed")? })
 }
 
-/// Phi''(0) and k + c; none for trenches without a curvature at their bottom.
+/// Phi''(0) and k + c; none for trenches without a stiffness at their bottom.
 fn chain_gains(parameters: &Parameters) -> Result<Option<(f64, f64)>, ConfigError> {
     if parameters.str("law")? == "queue" {
         return Ok(Some((parameters.f64("queue.position_gain")?, parameters.f64("queue.velocity_gain")?)));
     }
-    let (alpha, a) = (parameters.f64("trench.alpha")?, parameters.f64("trench.a")?);
-    let stiffness = match parameters.str("trench.shape")? {
-        "hyperbolic" | "quadratic" | "saturated" => alpha / a,
-        "square_root" => 2.0,
-        "critical" => 0.25 * parameters.f64("damping")? * parameters.f64("damping")?,
-        _ => return Ok(None),
-    };
-    Ok(Some((stiffness, parameters.f64("damping")? + parameters.f64("leader_damping")?)))
+    let damping = parameters.f64("damping")? + parameters.f64("leader_damping")?;
+    Ok(stiffness(&trench_from_parameters(parameters)?).map(|stiffness| (stiffness, damping)))
 }

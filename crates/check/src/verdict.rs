@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// One thing that was looked at, and whether it is as the theory asks.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// What was looked at: `gains`, `potential`, `zones` ...
     pub check: &'static str,
@@ -17,6 +17,33 @@ pub struct Verdict {
     pub finding: String,
     /// The equation or section that decides.
     pub equation: &'static str,
+    /// The numbers of the finding, all of them and unrounded, where there are more than it tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub values: Option<Values>,
+}
+
+/// Numbers for programs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Values {
+    /// Of `chain`.
+    Chain {
+        /// What |e_j| never exceeds, by rank: of all robots of the chain, but of no more than a hundred. m and m/s together.
+        bounds: Vec<f64>,
+        /// The same by (8.26) as corrected.
+        recursive_bounds: Vec<f64>,
+        /// How many robots in one chain, all starting alike, stay within the tolerance.
+        longest: usize,
+        /// Ranks that were computed: where `longest` is as many, longer chains may stay within, too.
+        computed: usize,
+    },
+    /// Of `gains` of (3.13): the guidelines of 4.3.2 for its K1 and K2.
+    Gains {
+        /// Guideline (2), K1 + (c1 + c2) K2: as far from both bounds of the stable zone as can be.
+        k3_centred: f64,
+        /// Guideline (3), K1 + c1 K2: as far as can be from both bounds of its upper part, K3 >= K1.
+        k3_centred_above: f64,
+    },
 }
 
 impl Verdict {
@@ -28,7 +55,8 @@ impl Verdict {
         finding: impl Into<String>,
         equation: &'static str,
     ) -> Self {
-        Self { check, subjects: vec![subject.to_owned()], holds, note: false, finding: finding.into(), equation }
+        let (subjects, finding) = (vec![subject.to_owned()], finding.into());
+        Self { check, subjects, holds, note: false, finding, equation, values: None }
     }
 
     /// A note about one subject.

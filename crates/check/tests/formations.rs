@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use trench_check::{Along, Passing, Standing, Start, Team, Verdict, formation, gaps};
+use trench_config::{Origin, ParameterValue, Parameters};
 use trench_formation::Vector2;
 
 /// Robots of the bed, under a law without zones.
@@ -59,6 +60,53 @@ fn chains_under_the_queue_law_have_a_bound() {
     assert_says(&near, (false, false), &["rank 4 may leave 0.035", "at most 2 robots in one chain stay within"]);
     let unstable = Team { chain_gains: Some((2.0, -1.0)), ..team("queue") };
     assert_says(&one(LINE, &unstable), (false, false), &["not Hurwitz"]);
+}
+
+/// What a controller is told, and K that the chain bound takes from it: of trenches of any shape, also those that a person wrote.
+#[test]
+fn stiffness_of_trenches_of_any_shape() {
+    let gains = |shape: &str, formula: &str, rows: &[f64]| {
+        let mut parameters = Parameters::default();
+        let mut put = |name: &str, value| parameters.insert(name, value, Origin::new("p.yaml", 1));
+        let numbers = [
+            ("body.radius", 0.08),
+            ("safety.margin", 0.01),
+            ("wheels.max_speed", 0.29),
+            ("gains.k1", 1.0),
+            ("motion.acceleration", 0.35),
+            ("trench.alpha", 0.5),
+            ("trench.a", 0.25),
+            ("damping", 3.0),
+            ("leader_damping", 1.0),
+        ];
+        for (name, number) in numbers {
+            put(name, ParameterValue::Double(number));
+        }
+        for (name, text) in [("law", "chain"), ("trench.shape", shape), ("trench.formula", formula)] {
+            put(name, ParameterValue::String(text.to_owned()));
+        }
+        put("trench.table", ParameterValue::DoubleArray(rows.to_vec()));
+        put("field", ParameterValue::DoubleArray(vec![0.0, 0.0, 4.0, 2.8]));
+        put("zones.radii", ParameterValue::DoubleArray(vec![0.20, 0.26, 0.34, 0.45, 1.2]));
+        trench_check::team(&parameters, None).unwrap().chain_gains
+    };
+    let check = |shape, formula, rows: &[f64], expected: Option<f64>| {
+        let found = gains(shape, formula, rows);
+        let near = found
+            .zip(expected)
+            .map(|((stiffness, damping), expected)| damping == 4.0 && (stiffness - expected).abs() < 1e-6);
+        assert!(near.unwrap_or(found.is_none() && expected.is_none()), "{shape}: {found:?}, not {expected:?}");
+    };
+    check("hyperbolic", "", &[], Some(2.0));
+    check("quadratic", "", &[], Some(2.0));
+    check("saturated", "", &[], Some(2.0));
+    check("square_root", "", &[], Some(2.0));
+    check("critical", "", &[], Some(2.25));
+    check("conic", "", &[], None);
+    check("slope", "3*x/(1 + x^2)", &[], Some(3.0));
+    check("potential", "0.7*x^2", &[], Some(1.4));
+    check("potential", "x^4", &[], None);
+    check("table", "", &[0.0, 0.0, 0.5, 0.4, 2.0, 0.4], Some(0.8));
 }
 
 /// Goal points that set out at once leave the first robot behind by their speed; what K asks for beyond the motors is said.

@@ -1,6 +1,6 @@
 //! Scenario files as they are shipped, judged.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-use trench_check::{Verdict, scenario};
+use trench_check::{Values, Verdict, scenario};
 
 /// The verdicts on a shipped scenario with `old` replaced by `new`.
 fn judged(name: &str, old: &str, new: &str) -> Vec<Verdict> {
@@ -27,7 +27,7 @@ fn shipped_scenarios_hold() {
     let mut names: Vec<String> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert!(names.len() >= 31, "{names:?}");
+    assert!(names.len() >= 39, "{names:?}");
     for name in &names {
         // 4.4.3 is about gains outside of the stable zone; those of 4.6 name launch files, which `trench check` follows.
         let expected: &[(&str, &str)] = match name.as_str() {
@@ -57,9 +57,121 @@ fn clearance_without_a_body() {
     assert!(!narrow.holds && narrow.finding.contains("make the clearance 1 m"), "{narrow:?}");
 }
 
+/// Neighbouring fragments share their places: five of them, on 10 m, with a place for one robot each, have room for three robots 4 m apart.
+#[test]
+fn room_on_fragments_is_not_the_sum_of_theirs() {
+    let few = "\
+name: \"few\"
+kind: nearest_points
+duration: 1.0
+step: 0.01
+method: semi_implicit_euler
+segment: {kind: line, points: [[0.0, 0.0], [10.0, 0.0]]}
+team_goal: [10.0, 0.0]
+trench: {kind: hyperbolic, alpha: 10.0, a: 1.0}
+damping: 5.0
+zoning: {rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2}
+obstacles:
+- {disc: [2.0, 0.0], radius: 0.1}
+- {disc: [4.0, 0.0], radius: 0.1}
+- {disc: [6.0, 0.0], radius: 0.1}
+- {disc: [8.0, 0.0], radius: 0.1}
+clearance: 1.0
+obstacle_potential: {pole: 0.05, cut: 0.1, strength: 10.0, m: 2}
+encroaching: obstacles
+robots:
+- {position: [10.0, 4.0], velocity: [0.0, 0.0]}
+- {position: [8.0, 8.0], velocity: [0.0, 0.0]}
+- {position: [5.0, 4.0], velocity: [0.0, 0.0]}
+- {position: [2.0, 8.0], velocity: [0.0, 0.0]}
+- {position: [0.0, 4.0], velocity: [0.0, 0.0]}
+figures:
+- {figure: \"1\", title: \"t\", draws: trajectories}
+";
+    let room = |text: &str| {
+        let verdicts = scenario("few", &trench_scenario::parse("few", text).unwrap());
+        verdicts.into_iter().find(|verdict| verdict.check == "room").unwrap()
+    };
+    let five = room(few);
+    assert!(
+        !five.holds
+            && five.finding.contains("in 5 fragments have 3 places, 4 m from each other, but there are 5 robots"),
+        "{five:?}"
+    );
+    assert!(
+        room(&few.replace(
+            "- {position: [2.0, 8.0], velocity: [0.0, 0.0]}\n- {position: [0.0, 4.0], velocity: [0.0, 0.0]}\n",
+            ""
+        ))
+        .holds
+    );
+    // There and back 1 m beside: six places along the way, three in the plane.
+    let hairpin =
+        few.replace("kind: line", "kind: polyline").replace("[10.0, 0.0]]}", "[10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]}");
+    let hairpin: String =
+        hairpin.lines().filter(|line| !line.contains("radius: 0.1")).map(|line| format!("{line}\n")).collect();
+    let noted = room(&hairpin.replace("obstacles:\n", "obstacles: []\n"));
+    assert!(noted.holds && noted.note && noted.finding.contains("neither proved nor refuted"), "{noted:?}");
+}
+
+/// Ten robots of 6.5: people are told of eight ranks, programs of all, and how many robots would stay within.
+#[test]
+fn all_ranks_of_6_5_are_told() {
+    let chain = judged("6.5.yaml", "", "").into_iter().find(|verdict| verdict.check == "chain").unwrap();
+    let told = serde_json::to_value(&chain).unwrap();
+    let values = &told["values"];
+    assert_eq!(values["bounds"].as_array().unwrap().len(), 10, "{told}");
+    assert_eq!(values["recursive_bounds"].as_array().unwrap().len(), 10, "{told}");
+    assert!(values["longest"].is_u64() && values["computed"].is_u64(), "{told}");
+    // Others have none.
+    let others = judged("6.5.yaml", "", "").into_iter().filter(|verdict| verdict.check == "room");
+    assert!(others.map(|verdict| serde_json::to_value(verdict).unwrap()).all(|room| room.get("values").is_none()));
+}
+
+/// (7.12) sums over all robots ahead and all obstacles: what fits for one of each is no claim about several.
+#[test]
+fn limits_speak_of_one_robot_and_one_obstacle() {
+    let limits = |name: &str, old: &str, new: &str| {
+        judged(name, old, new).into_iter().find(|verdict| verdict.check == "limits").unwrap()
+    };
+    let ten = limits("9.2_bounded.yaml", "", "");
+    assert!(ten.holds && ten.note, "{ten:?}");
+    assert!(ten.finding.contains("while no more than these act at once. Several add up (7.12)"), "{ten:?}");
+    // Nine robots ahead with 1 m/s^2 each, four discs with 3 m/s^2, the trench with 1 m/s^2: 22 m/s^2 hold all of them at once.
+    let all = limits("9.2_bounded.yaml", "acceleration: 5.0}", "acceleration: 22.0}");
+    assert!(all.holds && !all.note && all.finding.contains("V' <= 0 within limits"), "{all:?}");
+    let nearly = limits("9.2_bounded.yaml", "acceleration: 5.0}", "acceleration: 21.9}");
+    assert!(nearly.holds && nearly.note, "{nearly:?}");
+    // Robots of 5.6 do not see each other.
+    let alone = limits("5.6_bounded.yaml", "", "");
+    assert!(alone.holds && !alone.note, "{alone:?}");
+}
+
+/// 4.4.4 and 4.4.3 have K1 = 20, K2 = 1, for which the thesis advises 21.80 and 22.30; so does the verdict, whether K3 is in the zone or not.
+#[test]
+fn guidelines_of_4_3_2_are_told() {
+    for name in ["4.4.4.yaml", "4.4.3_case_one.yaml"] {
+        let gains = judged(name, "", "").into_iter().find(|verdict| verdict.check == "gains").unwrap();
+        assert!(
+            gains.finding.contains("4.3.2: K3 = 21.8, the middle") && gains.finding.contains("or K3 = 22.3, "),
+            "{gains:?}"
+        );
+        let Some(Values::Gains { k3_centred, k3_centred_above }) = gains.values else { panic!("{gains:?}") };
+        assert!((k3_centred - 21.801_669_424).abs() < 1e-8 && (k3_centred_above - 22.301_669_424).abs() < 1e-8);
+    }
+    // Laws without K3 have no such choice.
+    let nominal = judged("4.4.1_law_3.10.yaml", "", "");
+    assert!(nominal.iter().all(|verdict| verdict.values.is_none()), "{nominal:?}");
+}
+
 #[test]
 fn chains_that_do_not_fit() {
-    check("7.10.yaml", "[100.0, 100.0]]", "[5.0, 5.0]]", &[("room", "4 places, but there are 10 robots")]);
+    check(
+        "7.10.yaml",
+        "[100.0, 100.0]]",
+        "[5.0, 5.0]]",
+        &[("room", "4 places, 4 m from each other, but there are 10 robots")],
+    );
     check(
         "7.10.yaml",
         "{position: [0.7206, -1.0582]",

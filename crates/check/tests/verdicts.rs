@@ -1,6 +1,6 @@
 //! The texts of verdicts that depend on numbers alone.
 
-use trench_check::{Approach, ChainOfRobots, Team, Verdict, chain, direction, formation, potential, zones};
+use trench_check::{Approach, ChainOfRobots, Team, Values, Verdict, chain, direction, formation, potential, zones};
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape, Placed};
 use trench_formation::trench::{Conic, Hyperbolic, Quadratic};
@@ -58,7 +58,7 @@ fn chains_are_bounded_rank_by_rank() {
     check(
         &chain("line", &of),
         true,
-        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 4 stays within 0.06 (0.03932; by (8.26) 6453); by rank 0.02034, \
+        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 4 stays within 0.06 (0.03932; by (8.26) 6453), as up to 9 robots in one chain would; by rank 0.02034, \
          0.02963, 0.0354, 0.03932",
     );
     check(
@@ -100,6 +100,40 @@ fn long_chains_are_computed_to_their_end() {
     );
 }
 
+/// All ranks are told to programs, and the longest chain within the tolerance whether or not this one is.
+#[test]
+fn ranks_and_the_longest_chain_are_values() {
+    let of = |robots, tolerance| {
+        let of = ChainOfRobots {
+            instead_of: None,
+            robots,
+            gains: (2.0, 3.0),
+            initial_error: 0.02,
+            tolerance,
+            setting_out: 0.0,
+            acceleration: None,
+        };
+        match chain("line", &of).values {
+            Some(Values::Chain { bounds, recursive_bounds, longest, computed }) => {
+                assert_eq!(bounds.len(), recursive_bounds.len());
+                assert!(bounds.windows(2).all(|pair| pair[0] < pair[1]), "{bounds:?}");
+                (bounds, longest, computed)
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    let (ten, longest, _) = of(10, 0.05);
+    assert_eq!((ten.len(), longest), (10, 7));
+    assert!((ten[8] - 0.0592).abs() < 1e-3 && (ten[9] - 0.06464).abs() < 1e-5, "{ten:?}");
+    let (four, longest, _) = of(4, 0.06);
+    assert_eq!((four.len(), longest), (4, 9));
+    assert!(four.iter().zip(&ten).all(|(short, long)| (short - long).abs() < 1e-9), "{four:?} {ten:?}");
+    let (_, longest, computed) = of(2, 1e9);
+    assert_eq!((longest, computed), (100, 100), "no rank of a hundred leaves");
+    let (two, longest, _) = of(2, 1e-9);
+    assert_eq!((two.len(), longest), (2, 0));
+}
+
 /// config/profiles/chain.yaml on its columns: k = 2 and c = 0.5 are 2.5.
 #[test]
 fn what_the_bound_is_not_about_is_said() {
@@ -118,7 +152,7 @@ fn what_the_bound_is_not_about_is_said() {
         ),
         true,
         "the linear queue law (8.11) with K = (2.5, 2.5) and errors of 0.05 at the start: rank 4 stays within 0.14 (0.1073; by (8.26) \
-         7530); by rank 0.05253, 0.07935, 0.09611, 0.1073; law chain has these gains at the bottom of its trench, but is not this law: zones, \
+         7530), as up to 6 robots in one chain would; by rank 0.05253, 0.07935, 0.09611, 0.1073; law chain has these gains at the bottom of its trench, but is not this law: zones, \
          limits, obstacles are not in the bound",
     );
 }

@@ -73,6 +73,49 @@ fn ties() {
     assert!(point(seek(Some(resting(at(-1.0, 0.0))))).norm() < 1e-8, "step (6)");
 }
 
+/// Step (6) discards all nearest points out of the attractive zone of a settled leader, however many there are: from the middle of three sides
+/// that touch a circle, whichever side the leader is beside.
+#[test]
+fn three_tied_points() {
+    let corners = [at(1.5, 1.0), at(-(3.0_f64.sqrt()), 1.0), at(0.0, -2.0), at(0.9 * 3.0_f64.sqrt(), 0.7)];
+    let curve = Curve::new(&CurveShape::Polyline(corners.to_vec()), false, false).unwrap();
+    let segment = Placed::new(&curve, Isometry2::identity());
+    let whole = (0.0, curve.length());
+    let radii = radii();
+    let touching = [90.0_f64, 210.0, 330.0].map(|degrees| at(degrees.to_radians().cos(), degrees.to_radians().sin()));
+    let second = curve.nearest(touching[1]).arc_length;
+    // In one piece, and with the corners cut out.
+    let cut = [(second - 2.6, second - 1.8), (second + 1.8, second + 2.0)];
+    for fragments in [Fragments::whole(whole), Fragments::beside(whole, &cut, 0.0)] {
+        let seek = |leader: LeaderView| {
+            Seeker::default().seek(&SETTINGS, &segment, (whole, &fragments), at(0.0, 0.0), Some((leader, &radii)))
+        };
+        for touching in touching {
+            let found = point(seek(resting(2.5 * touching)));
+            assert!((found - touching).norm() < 1e-8, "{found:?}, not {touching:?}");
+            assert_eq!(seek(LeaderView { speed: 1.0, ..resting(2.5 * touching) }), Sought::Tie, "step (5)");
+        }
+    }
+}
+
+/// From the centre of an arc all of it is nearest: what of it is in the leader's attractive zone counts.
+#[test]
+fn arcs_that_tie_as_a_whole() {
+    let arc = CurveShape::Arc { centre: at(1.0, 2.0), radius: 5.0, start_angle: 0.0, sweep: PI };
+    let curve = Curve::new(&arc, false, false).unwrap();
+    let segment = Placed::new(&curve, Isometry2::identity());
+    let (whole, radii) = ((0.0, curve.length()), radii());
+    for angle in [0.3_f64, 1.5, 3.0] {
+        let leader = resting(at(1.0 + 6.0 * angle.cos(), 2.0 + 6.0 * angle.sin()));
+        let seek = |leader| {
+            let fragments = Fragments::whole(whole);
+            Seeker::default().seek(&SETTINGS, &segment, (whole, &fragments), at(1.0, 2.0), Some((leader, &radii)))
+        };
+        assert!((point(seek(leader)) - leader.position).norm() < radii.rho_check, "{angle}");
+        assert_eq!(seek(LeaderView { speed: 1.0, ..leader }), Sought::Tie, "step (5)");
+    }
+}
+
 /// A robot keeps its nearest point while the other is nearer by less than the margin.
 #[test]
 fn transits() {

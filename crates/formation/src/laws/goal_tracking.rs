@@ -70,11 +70,11 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
     pub fn steer(&self, robot: PointState, goal: GoalMotion) -> Steered {
         let (offset, closing) = (goal.position - robot.position, goal.velocity - robot.velocity);
         let distance = libm::hypot(offset.x, offset.y);
-        let terms = self.terms(robot, goal);
+        let coefficient = self.damping.coefficient(distance);
         Steered {
-            acceleration: goal.acceleration + terms.damping + terms.attraction,
+            acceleration: goal.acceleration + coefficient * closing + pull(&self.trench, offset),
             lyapunov: 0.5 * closing.norm_squared() + self.trench.value(distance),
-            lyapunov_rate: -self.damping.coefficient(distance) * closing.norm_squared(),
+            lyapunov_rate: -coefficient * closing.norm_squared(),
         }
     }
 

@@ -4,10 +4,12 @@
 //! they leave, and decides on transits (Definition 7.2.1, Assumption 7.2.1); step (7) is to call it again.
 mod apart;
 mod fragments;
+mod room;
 mod seeker;
 mod settings;
 
 pub use apart::apparent_obstacles_apart;
 pub use fragments::{Fragments, apparent_obstacles};
+pub use room::Room;
 pub use seeker::{LeaderView, Seeker, Sought};
 pub use settings::{LeaderRule, SeekError, SeekSettings};

@@ -69,14 +69,17 @@ impl Seeker {
         };
         let mut chosen = match search.keep(intervals, best) {
             Some(kept) => kept,
-            None => match (search.tied(intervals, best), leader, settled) {
-                (None, ..) | (_, None, _) => best,
-                (Some(_), Some(_), None) => return Sought::Tie,
-                (Some(other), _, Some(view)) => {
-                    if in_zone(view, &best) {
-                        best
-                    } else {
-                        other
+            None => match leader {
+                None => best,
+                Some(view) => {
+                    let mut tied = search.tied(intervals, best, view.0.position);
+                    match (tied.next(), settled) {
+                        (None, _) => best,
+                        (Some(_), None) => return Sought::Tie,
+                        (Some(other), Some(view)) => {
+                            let mut all = [best, other].into_iter().chain(tied);
+                            all.find(|foot| in_zone(view, foot)).unwrap_or(best)
+                        }
                     }
                 }
             },
@@ -160,15 +163,24 @@ impl Search<'_> {
         (foot.distance <= best.distance + self.margin).then_some(foot)
     }
 
-    /// Another nearest point as near as `best`, on its own fragment or on another.
-    fn tied(&self, intervals: &[Interval], best: Foot) -> Option<Foot> {
-        let differs = |foot: &Foot| (foot.point - best.point).norm() > TIE;
-        let ties = |foot: &Foot| differs(foot) && foot.distance <= best.distance + TIE * (1.0 + best.distance);
-        let on_others = intervals.iter().map(|interval| self.segment.nearest_within(self.robot, *interval)).find(ties);
-        on_others.or_else(|| {
+    /// All other points as near as `best`, on its own fragment or on others. Of an arc that is nearest as a whole the point that is nearest to
+    /// the leader stands for all.
+    fn tied(&self, intervals: &[Interval], best: Foot, leader: Vector2<f64>) -> impl Iterator<Item = Foot> {
+        let ties = move |foot: &Foot| {
+            (foot.point - best.point).norm() > TIE && foot.distance <= best.distance + TIE * (1.0 + best.distance)
+        };
+        let on_others = intervals.iter().map(|interval| self.segment.nearest_within(self.robot, *interval));
+        // Asked for where they come to it alone: this search is the longer one.
+        let all = core::iter::once_with(move || self.segment.nearest_all(self.robot)).flat_map(move |all| {
             let inside = |foot: &Foot| intervals.iter().any(|(a, b)| *a <= foot.arc_length && foot.arc_length <= *b);
-            let all = self.segment.nearest_all(self.robot).feet;
-            all.into_iter().find(|foot| inside(foot) && ties(foot))
-        })
+            let meet = |range: Interval| intervals.iter().map(move |(a, b)| (range.0.max(*a), range.1.min(*b)));
+            let arcs = all.ranges.into_iter().flat_map(meet).filter(|(from, to)| from < to);
+            let on_arcs = arcs.map(|arc| {
+                let foot = self.segment.nearest_within(leader, arc);
+                Foot { distance: (foot.point - self.robot).norm(), ..foot }
+            });
+            all.feet.into_iter().filter(inside).chain(on_arcs).collect::<Vec<_>>()
+        });
+        on_others.chain(all).filter(ties)
     }
 }

@@ -2,6 +2,7 @@
 use super::{ChainScenario, ChainSimulation, ScenarioError};
 use crate::kinematics::PointState;
 use crate::laws::Capability;
+use crate::seek::Room;
 use crate::trench::Trench;
 
 /// What a run is held to.
@@ -18,9 +19,9 @@ pub struct Standard {
 /// The verdict on a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
-    /// The fragments have fewer places than there are robots.
+    /// The fragments have fewer places, rho_hat from each other, than there are robots.
     TooFewPlaces {
-        /// Places there are.
+        /// More there are not.
         places: usize,
     },
     /// A robot of this rank starts out of reach of its leader.
@@ -72,9 +73,9 @@ pub fn judge<T: Trench + Clone + Send + Sync>(
     let step = scenario.step;
     let longest = 3.0 * (scenario.segment.length() + 60.0) / standard.capability.speed + PATIENCE;
     let mut simulation = ChainSimulation::new(scenario)?;
-    let places = simulation.fragments(1).iter().map(|(from, to)| ((to - from) / radii.rho_hat) as usize + 1).sum();
-    if places < starts.len() {
-        return Ok(Verdict::TooFewPlaces { places });
+    let room = Room::count(&simulation.scenario.segment, simulation.fragments(1), radii.rho_hat, starts.len());
+    if room.most < starts.len() {
+        return Ok(Verdict::TooFewPlaces { places: room.most });
     }
     let (mut robot_gap, mut obstacle_gap, mut since) = (f64::INFINITY, f64::INFINITY, None);
     while simulation.time() < longest {

@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
 
 mod bounds;
+mod fragments;
 mod hilare;
 mod ranks;
 mod trajectories;
@@ -67,7 +68,7 @@ fn every_file_reads() {
         assert!(!scenario.figures.is_empty(), "{name}");
         count += 1;
     }
-    assert!(count > 20);
+    assert!(count >= 39);
 }
 
 #[test]
