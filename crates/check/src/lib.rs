@@ -18,6 +18,7 @@ mod scenario;
 mod standing;
 mod team;
 mod verdict;
+mod vertices;
 mod zones;
 
 pub use chain::{ChainOfRobots, chain};
