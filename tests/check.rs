@@ -90,7 +90,7 @@ fn written(folder: &tempfile::TempDir, text: &str) -> String {
 fn what_a_node_refuses_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (parameters, line, said) in [
-        ("law: nothing", 3, "law = nothing: is no law; one of: robust"),
+        ("law: nothing", 3, "law = \"nothing\": is no law; one of: robust"),
         ("law: zoned\n    zoned.direction: [1.0]", 4, "zoned.direction = [1.0]: is no direction; write x and y"),
         (
             "law: zoned\n    zoned.direction: [0.0, 0.0]",
@@ -98,8 +98,8 @@ fn what_a_node_refuses_is_refused() {
             "zoned.direction = [0.0, 0.0]: is no direction; write x and y",
         ),
         ("law: chain\n    obstacles: {pole: 0.3, cut: 0.2}", 4, "obstacles.cut = 0.2: "),
-        ("law: chain\n    encroaching: nonsense", 4, "encroaching = nonsense: is nothing that encroaches"),
-        ("team_link: x", 3, "team_link = x: is no team link; write radio or network"),
+        ("law: chain\n    encroaching: nonsense", 4, "encroaching = \"nonsense\": is nothing that encroaches"),
+        ("team_link: x", 3, "team_link = \"x\": is no team link; write radio or network"),
         ("field: [1.0, 1.0, 0.0, 0.0]", 3, "field = [1.0, 1.0, 0.0, 0.0]: has no area"),
     ] {
         let path = written(&folder, &format!("/**/formation_controller:\n  ros__parameters:\n    {parameters}\n"));
@@ -141,8 +141,9 @@ fn what_a_node_of_a_launch_file_refuses_is_refused_by_check_and_sim_alike() {
         (FAR_OUT, "the body of robot8 at (50.000, 2.000) is 46.0800 m out of the field"),
     ] {
         let (checked, simulated) = (by("check", &[argument]), by("sim", &[argument]));
-        assert!(checked.contains(said), "{checked}");
-        assert_eq!(checked, simulated);
+        // The simulator ends at the first refusal, the check tells those of all nodes.
+        assert!(simulated.contains(said), "{simulated}");
+        assert!(checked.starts_with(&simulated), "{checked}");
     }
 }
 
