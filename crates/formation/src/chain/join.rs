@@ -4,9 +4,8 @@ use nalgebra::Vector2;
 
 /// How many of the members stay ahead of a robot at `own` that joins a chain towards `goal`; `members` are their positions by rank (all m,
 /// in one frame). It joins where it lengthens the chain least, measured from the team goal along the pairs; to the rear of equals. The
-/// order of the others stays, so one pair at most is taken apart: the thesis asks for a sorting that leaves the rest where it is, and in a
-/// chain by 6.2.1, where each robot is the nearest to the one ahead, that is what the distances along the pairs give. (The distance to the
-/// team goal alone would send whoever stands at the end of a chain round a bend to its head.)
+/// order of the others stays, so one pair at most is taken apart: the thesis asks for a sorting that leaves the rest where it is, and
+/// distances along the pairs are what 6.2.1 orders by, too. (The distance to the team goal alone would send whoever stands at the end of a chain round a bend to its head.)
 #[must_use]
 pub fn joining(own: Vector2<f64>, goal: Vector2<f64>, members: &[Vector2<f64>]) -> usize {
     let (mut best, mut ahead) = ((f64::INFINITY, 0), goal);
