@@ -77,3 +77,106 @@ fn what_cannot_be_read_is_named_with_its_line() {
     );
     assert_eq!(check(&[]).status.code(), Some(2));
 }
+
+/// A file in a folder of its own, which a test names on its command line.
+fn written(folder: &tempfile::TempDir, text: &str) -> String {
+    let path = folder.path().join("own.yaml");
+    std::fs::write(&path, text).unwrap();
+    path.display().to_string()
+}
+
+/// The nodes' own words, not a second opinion: what is refused here is refused there, and the other way round.
+#[test]
+fn what_a_node_refuses_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (parameters, line, said) in [
+        ("law: nothing", 3, "law = \"nothing\": is no law; one of: robust"),
+        ("law: zoned\n    zoned.direction: [1.0]", 4, "zoned.direction = [1.0]: is no direction; write x and y"),
+        (
+            "law: zoned\n    zoned.direction: [0.0, 0.0]",
+            4,
+            "zoned.direction = [0.0, 0.0]: is no direction; write x and y",
+        ),
+        ("law: chain\n    obstacles: {pole: 0.3, cut: 0.2}", 4, "obstacles.cut = 0.2: "),
+        ("law: chain\n    encroaching: nonsense", 4, "encroaching = \"nonsense\": is nothing that encroaches"),
+        ("team_link: x", 3, "team_link = \"x\": is no team link; write radio or network"),
+        ("field: [1.0, 1.0, 0.0, 0.0]", 3, "field = [1.0, 1.0, 0.0, 0.0]: has no area"),
+    ] {
+        let path = written(&folder, &format!("/**/formation_controller:\n  ros__parameters:\n    {parameters}\n"));
+        let output = check(&[&path]);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{parameters}: {error}");
+        assert!(error.starts_with(&format!("trench check: {path}:{line}: {said}")), "{parameters}: {error}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+/// Two robots in one another.
+const TOO_NEAR: &str = "poses:=[0.5, 0.5, 0.0, 0.55, 0.5, 0.0, 0.5, 1.0, 0.0, 0.5, 1.5, 0.0, 0.5, 2.0, 0.0, 1.0, 0.5, 0.0, 1.0, 1.0, 0.0, 1.0, 1.5, 0.0]";
+
+/// One that begins nowhere near the field.
+const FAR_OUT: &str = "poses:=[0.5, 0.5, 0.0, 1.5, 0.5, 0.0, 0.5, 1.0, 0.0, 0.5, 1.5, 0.0, 0.5, 2.0, 0.0, 1.0, 0.5, 0.0, 1.0, 1.0, 0.0, 50.0, 2.0, 0.0]";
+
+/// Nodes of all kinds, by launch files: `trench sim` says the same.
+#[test]
+fn what_a_node_of_a_launch_file_refuses_is_refused_by_check_and_sim_alike() {
+    let by = |subcommand: &str, arguments: &[&str]| {
+        let folder = env!("CARGO_MANIFEST_DIR");
+        let output = Command::new(env!("CARGO_BIN_EXE_trench"))
+            .args([subcommand, "launch/chain.launch.yaml"])
+            .args(arguments)
+            .current_dir(folder)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        String::from_utf8(output.stderr).unwrap().replace(&format!("trench {subcommand}: "), "")
+    };
+    for (argument, said) in [
+        ("poses:=[0.5]", "poses = [0.5]: has 1 numbers for 8 robots; write x, y and heading for each robot"),
+        ("bed:=nonsense", "nonsense"),
+        (
+            TOO_NEAR,
+            "robot2 at (0.550, 0.500) is 0.0500 m from robot1 at (0.500, 0.500), and their bodies need 0.1600 m",
+        ),
+        (FAR_OUT, "the body of robot8 at (50.000, 2.000) is 46.0800 m out of the field"),
+    ] {
+        let (checked, simulated) = (by("check", &[argument]), by("sim", &[argument]));
+        // The simulator ends at the first refusal, the check tells those of all nodes.
+        assert!(simulated.contains(said), "{simulated}");
+        assert!(checked.starts_with(&simulated), "{checked}");
+    }
+}
+
+/// What is wrong with a launch file that a scenario names is told at the scenario's line: its words are no command line.
+#[test]
+fn what_a_scenario_says_to_a_launch_file_is_told_at_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let launch = format!("{}/launch/square.launch.yaml", env!("CARGO_MANIFEST_DIR"));
+    for (scenario, line, said) in [
+        ("launch: none.yaml".to_owned(), 3, "launch = none.yaml: cannot read "),
+        (
+            format!("launch: {launch}\narguments:\n  sed: \"1\""),
+            5,
+            "arguments.sed = 1: the launch file has no such argument; did you mean `bed`?",
+        ),
+        (
+            format!("launch: {launch}\narguments:\n  seed: abc"),
+            5,
+            "arguments.seed = abc: testbed-1: parameters/1-6.yaml:3: seed",
+        ),
+        (format!("launch: {launch}\narguments:\n  profile: nonsense"), 5, "arguments.profile = nonsense: "),
+        (
+            format!("launch: {launch}\narguments:\n  seed: \"1\"\n  poses: \"[0.5]\""),
+            6,
+            "arguments.poses = [0.5]: testbed-1: parameters/1-5.yaml:3: poses = [0.5]: has 1 numbers for 4 robots",
+        ),
+    ] {
+        let path = written(&folder, &format!("name: own\nkind: launch\n{scenario}\n"));
+        for subcommand in ["check", "sim"] {
+            let output = Command::new(env!("CARGO_BIN_EXE_trench")).args([subcommand, &path]).output().unwrap();
+            let error = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(2), "{error}");
+            assert!(error.starts_with(&format!("trench {subcommand}: {path}:{line}: {said}")), "{scenario}: {error}");
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! `trench check`: configuration against the theory, before anything moves.
 
+mod admit;
 mod bed;
 mod gather;
 mod kind;
@@ -15,7 +16,8 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  every verdict holds
   1  a verdict fails
-  2  a file cannot be read as what it is: file, line, key and remedy are on standard error";
+  2  a file cannot be read as what it is, or a node refuses what it says: file, line, key and remedy are on
+     standard error";
 
 /// Judges configuration by the theory, before anything moves: gains, potentials, zones, room, chains.
 ///

@@ -4,6 +4,7 @@ mod bag;
 mod calibrate;
 mod check;
 mod launch;
+mod named;
 mod plot;
 mod rounded;
 mod router;

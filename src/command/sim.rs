@@ -6,7 +6,7 @@ mod sink;
 mod threads;
 
 use super::launch::name_and_value;
-use super::say;
+use super::{named, say};
 use clap::Parser;
 use progress::Progress;
 use sink::Sink;
@@ -99,6 +99,17 @@ pub(in crate::command) enum SimError {
     Io { path: PathBuf, error: std::io::Error },
 }
 
+impl SimError {
+    /// The error about a launch file, told where the scenario names it.
+    fn of_scenario(self, launch: &trench_scenario::Launch) -> Self {
+        match self {
+            Self::Config(error) => Self::Config(launch.blamed(error)),
+            Self::Load(error) => Self::Config(named::refused(launch, &error)),
+            other => other,
+        }
+    }
+}
+
 /// Runs the subcommand.
 pub(crate) fn run(arguments: &Arguments) -> ExitCode {
     match simulate(arguments) {
@@ -114,10 +125,10 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     let Some((scenario, text)) = read(&arguments.file)? else { return drive(arguments, None) };
     if let Task::Launch(launch) = &scenario.task {
         let file = arguments.file.parent().unwrap_or(Path::new("")).join(&launch.file);
-        // What the command line says comes later, and wins.
-        let mut all = launch.arguments.clone();
-        all.extend(arguments.arguments.iter().cloned());
-        return drive(&Arguments { file, arguments: all, ..arguments.clone() }, Some(&text));
+        let launch = launch.overridden_by(&arguments.arguments);
+        let all = launch.pairs().into_iter().chain(arguments.arguments.iter().cloned()).collect();
+        let driven = drive(&Arguments { file, arguments: all, ..arguments.clone() }, Some(&text));
+        return driven.map_err(|error| error.of_scenario(&launch));
     }
     let bag = arguments.bag.as_deref();
     let manner = scenario::Manner { bag, progress: !arguments.quiet, threads: arguments.threads.get() };
@@ -148,8 +159,12 @@ fn write_csv(arguments: &Arguments, run: &Run) -> Result<(), SimError> {
 
 /// The run of a scenario that names a launch file, without its bag and its verdict.
 pub(in crate::command) fn launched(scenario: &Path, launch: &trench_scenario::Launch) -> Result<Run, SimError> {
+    silently(scenario, launch).map_err(|error| error.of_scenario(launch))
+}
+
+fn silently(scenario: &Path, launch: &trench_scenario::Launch) -> Result<Run, SimError> {
     let file = scenario.parent().unwrap_or(Path::new("")).join(&launch.file);
-    let plan = plan(&file, &launch.arguments.iter().cloned().collect())?;
+    let plan = plan(&file, &launch.pairs().into_iter().collect())?;
     let mut lockstep = Lockstep::new(load_journalled(&plan, &Disk, SEED, None)?.instances)?;
     let from = lockstep.times().steady;
     let mut watch = Watch { sink: Sink::new(None)?, quiet: true, from, progress: Progress::new(true) };

@@ -21,6 +21,7 @@ mod standing;
 mod stiffness;
 mod team;
 mod verdict;
+mod vertices;
 mod zones;
 
 pub use chain::{ChainOfRobots, chain};

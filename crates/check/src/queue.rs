@@ -3,6 +3,7 @@
 use crate::approach::approaches;
 use crate::growth::growth;
 use crate::verdict::number;
+use crate::vertices::vertices;
 use crate::{Team, Verdict};
 use trench_formation::Vector2;
 use trench_formation::assignment::robots_per_queue;
@@ -23,6 +24,7 @@ pub fn formation(subject: &str, plan: &Plan, team: &Team) -> Vec<Verdict> {
     }
     verdicts.extend(motion(subject, plan, team));
     verdicts.extend(approaches(subject, plan, team));
+    verdicts.extend(vertices(subject, plan, team));
     verdicts.extend(plan.queues.iter().filter_map(|queue| growth(subject, plan, queue, team)));
     verdicts
 }

@@ -136,6 +136,24 @@ queues:
     assert_says(&one(text, &weak), (true, true), &["|K e| may ask for", "robots have 0.1 (motion.acceleration)"]);
 }
 
+/// Who is drawn to the segment goes to no vertex but the leader's.
+#[test]
+fn vertices_that_draw_nobody_are_noted() {
+    let several =
+        LINE.replace("[[3.5, 0.5]]", "[[3.5, 0.5], [3.0, 0.5]]").replace("  chain: {robots: 4, spacing: 0.36}\n", "");
+    for law in ["zoned", "chain", "nearest"] {
+        let noted = judged("vertices", &several, &team(law));
+        assert_eq!(noted.len(), 1);
+        assert_says(
+            &noted[0],
+            (true, true),
+            &["queue line has 2 vertices, but under law", "chain: {robots: 2, spacing: ...}"],
+        );
+        assert_eq!(judged("vertices", LINE, &team(law)), []);
+    }
+    assert_eq!(judged("vertices", &several, &team("robust")), []);
+}
+
 fn start(rank: usize, x: f64, y: f64) -> Start {
     Start { robot: format!("robot{rank}"), queue: 0, rank, position: Vector2::new(x, y) }
 }

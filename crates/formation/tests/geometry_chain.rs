@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 use nalgebra::{Isometry2, Vector2};
 use proptest::prelude::*;
-use trench_formation::chain::{Chain, ChainError, Leader, Robot, organise};
+use trench_formation::chain::{Chain, ChainError, Leader, Robot, joining, organise};
 use trench_formation::curve::{Curve, CurveShape, Placed};
 
 fn at(x: f64, y: f64) -> Vector2<f64> {
@@ -51,20 +51,22 @@ fn ties_go_to_the_segment_then_to_the_name() {
     assert_eq!(organised(&mirrored, at(20.0, 20.0)).names(), ["z", "a", "b"]);
 }
 
+/// Joining looks along the pairs, ordering at the next robot alone: they agree but where the rule turns back.
 #[test]
-fn a_robot_quits_and_comes_back() {
+fn who_comes_back_to_the_chain_of_table_6_1_takes_its_place() {
     let (robots, goal) = (table_6_1(), at(70.0, 70.0));
-    let mut chain = organised(&robots, goal);
-    let before = chain.clone();
-    chain.quit("r3").unwrap();
-    assert_eq!(chain.leader("r5"), Some(Leader::Robot("r2")));
-    assert_eq!(chain.quit("r3"), Err(ChainError::Unknown("r3".into())));
-    chain.join("r3", &robots, goal).unwrap();
-    assert_eq!(chain, before);
-    assert_eq!(chain.join("r3", &robots, goal), Err(ChainError::DuplicateName("r3".into())));
-    assert_eq!(chain.join("r11", &robots, goal), Err(ChainError::Unknown("r11".into())));
-    chain.quit("r1").unwrap();
-    assert_eq!(chain.leader("r2"), Some(Leader::TeamGoal), "the next one leads");
+    let place = |name: &str| robots.iter().find(|robot| robot.name == name).unwrap().position;
+    let chain = organised(&robots, goal);
+    for (index, name) in chain.names().iter().enumerate() {
+        let others: Vec<_> = chain.names().iter().filter(|other| *other != name).map(|other| place(other)).collect();
+        // The rule of 6.2.1 goes r3, r5, r4, back to r4: the chain is shorter, and as printed, with these two the other way round.
+        let expected = match name.as_str() {
+            "r4" => 3,
+            "r5" => 4,
+            _ => index,
+        };
+        assert_eq!(joining(place(name), goal, &others), expected, "{name}");
+    }
 }
 
 #[test]

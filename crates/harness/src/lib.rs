@@ -2,12 +2,14 @@
 //!
 //! The one place that knows all cores (invariant 5).
 
+mod admit;
 mod bus;
 pub mod catalog;
 mod load;
 mod lockstep;
 pub mod replay;
 
+pub use admit::refusals;
 pub use bus::BusError;
 /// Who gets which place, for those who judge formations before a run.
 pub use leader_assignment::{ChainOrder, Seated, Seating, organise};

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use trench_config::{ConfigError, Parameters};
 use trench_core::arguments::{Arguments, Names, UsageError, process_parameters};
-use trench_core::{Files, NodeContext, NodeDescription};
+use trench_core::{Files, NodeContext, NodeDescription, StartError};
 use trench_journal::{BuildError, Journals};
 use trench_launch::{Plan, Process, Request};
 
@@ -37,6 +37,21 @@ pub enum LoadError {
         /// Why.
         error: Box<BuildError>,
     },
+}
+
+impl LoadError {
+    /// The first value that it is about, if it is about one.
+    #[must_use]
+    pub fn about(&self) -> Option<&ConfigError> {
+        match self {
+            Self::Parameters { errors, .. } => errors.first(),
+            Self::Start { error, .. } => match &**error {
+                BuildError::Start(StartError::Config(error)) => Some(error),
+                BuildError::Journal(_) => None,
+            },
+            Self::Usage { .. } => None,
+        }
+    }
 }
 
 /// The cores of a launch file, and the processes that are none of ours and stay out of the simulation.
@@ -86,11 +101,12 @@ pub fn load_journalled(
 ) -> Result<Loaded, LoadError> {
     let mut loaded = Loaded { instances: Vec::new(), left_out: Vec::new() };
     for process in &plan.processes {
-        let program = process.argv.first().map(Path::new).and_then(Path::file_name);
-        match program.and_then(|name| name.to_str()).and_then(catalog::node) {
+        match program(process).and_then(catalog::node) {
             Some(node) => {
                 for arguments in each_node(&node, process)? {
-                    loaded.instances.push(instance(node, arguments, process, files, seed, journals)?);
+                    let parameters = resolved(&node, &arguments, process, files)?;
+                    let instance = instance_of(&node, arguments, &parameters, process, files, seed, journals)?;
+                    loaded.instances.push(instance);
                 }
             }
             None => loaded.left_out.push(process.label.clone()),
@@ -99,18 +115,24 @@ pub fn load_journalled(
     Ok(loaded)
 }
 
-fn instance(
-    node: NodeDescription,
+/// The name of a process's executable.
+pub(crate) fn program(process: &Process) -> Option<&str> {
+    Path::new(process.argv.first()?).file_name()?.to_str()
+}
+
+/// A node of a process, made with these parameters.
+pub(crate) fn instance_of(
+    node: &NodeDescription,
     arguments: Arguments,
+    parameters: &Parameters,
     process: &Process,
     files: &dyn Files,
     seed: u64,
     journals: Option<&Journals>,
 ) -> Result<Instance, LoadError> {
-    let resolved = resolved(&node, &arguments, process, files)?;
     let names = Names::new(&arguments.remaps, node.name);
     let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
-    let core = trench_journal::build(&node, &context, &resolved, files, &names, journals)
+    let core = trench_journal::build(node, &context, parameters, files, &names, journals)
         .map_err(|error| LoadError::Start { label: process.label.clone(), error: Box::new(error) })?;
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })
 }
@@ -133,13 +155,13 @@ pub fn parameters(
 }
 
 /// The command line of `process`, for each of its nodes.
-fn each_node(node: &NodeDescription, process: &Process) -> Result<Vec<Arguments>, LoadError> {
+pub(crate) fn each_node(node: &NodeDescription, process: &Process) -> Result<Vec<Arguments>, LoadError> {
     let arguments = Arguments::parse(process.argv.iter().skip(1).cloned())
         .map_err(|error| LoadError::Usage { label: process.label.clone(), error })?;
     Ok(arguments.of_each_node(node.name))
 }
 
-fn resolved(
+pub(crate) fn resolved(
     node: &NodeDescription,
     arguments: &Arguments,
     process: &Process,

@@ -1,8 +1,8 @@
 //! Formation files.
 
 use crate::expression::expression;
-use crate::plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
-use crate::{MOST_ROBOTS, ON_SEGMENT, SHARES};
+use crate::plan::{Frame, Motion, Place, Plan, QueuePlan};
+use crate::{ChainPlaces, LEAST_TOLERANCE, MOST_ROBOTS, NO_VERTEX, ON_SEGMENT, ONE_VERTEX, SHARES};
 use trench_config::ConfigError;
 use trench_config::yaml::{self, Map, Node};
 use trench_formation::Vector2;
@@ -14,6 +14,7 @@ use trench_formation::curve::{Curve, CurveError, CurveShape};
 /// The first thing that is wrong, with file, line, key, value and remedy.
 pub fn parse(file: &str, text: &str) -> Result<Plan, ConfigError> {
     let root = yaml::parse(file, text)?;
+    root.bounded()?;
     let map = root.map()?;
     let plan = Plan {
         name: map.str("name")?.to_owned(),
@@ -49,6 +50,16 @@ fn queues(node: &Node) -> Result<Vec<QueuePlan>, ConfigError> {
     if queues.is_empty() {
         return Err(node.error("a formation without segments", "give at least one queue"));
     }
+    for (index, item) in node.list()?.iter().enumerate() {
+        let name = &queues[index].name;
+        if queues[..index].iter().any(|earlier| earlier.name == *name) {
+            return Err(item.map()?.error(
+                "name",
+                "is the name of an earlier queue too",
+                "give each queue its own name",
+            ));
+        }
+    }
     let total: f64 = queues.iter().map(|queue| queue.share).sum();
     if (total - 1.0).abs() > SHARES {
         return Err(node.error(format!("the shares add up to {total}"), "make them add up to 1"));
@@ -63,9 +74,13 @@ fn queue(node: &Node) -> Result<QueuePlan, ConfigError> {
     let vertices = map.node("vertices")?;
     let ends = on_curve(&curve, vertices)?;
     if ends.is_empty() {
-        return Err(vertices.error("a queue without a vertex", "give one or two points of the segment"));
+        return Err(vertices.error(NO_VERTEX, "give one or two points of the segment"));
     }
     let chain = map.opt_node("chain").map(|node| Ok((node, chain(&node.map()?)?))).transpose()?;
+    if chain.is_some() && ends.len() > 1 {
+        let remedy = "leave out the others, or leave out chain to have a place at each";
+        return Err(vertices.error(format!("{} vertices, but {ONE_VERTEX}", ends.len()), remedy));
+    }
     let starts = map.opt_node("starts").map(|node| Ok((node, on_curve(&curve, node)?))).transpose()?;
     let places = match starts {
         None if chain.is_some() => chain_places(&curve, ends[0], chain)?,
@@ -85,7 +100,7 @@ fn queue(node: &Node) -> Result<QueuePlan, ConfigError> {
         curve,
         vertices: points(vertices)?,
         share: share(&map)?,
-        tolerance: not_negative(&map, "tolerance")?,
+        tolerance: tolerance(&map)?,
         chain: chain.map(|(_, chain)| chain),
         places,
     };
@@ -107,10 +122,16 @@ fn chain(map: &Map<'_>) -> Result<ChainPlaces, ConfigError> {
 
 fn chain_places(curve: &Curve, vertex: f64, chain: Option<(&Node, ChainPlaces)>) -> Result<Vec<Place>, ConfigError> {
     let Some((node, chain)) = chain else { return Ok(Vec::new()) };
-    chain.along(curve, vertex).map_err(|room| {
-        let problem = format!("the chain does not fit: the segment is {room:.3} m long behind its first vertex");
-        node.error(problem, "take fewer robots, a smaller spacing, a longer segment, or open_start or open_end")
-    })
+    chain.along(curve, vertex).map_err(|room| node.error(room.to_string(), room.remedy()))
+}
+
+fn tolerance(map: &Map<'_>) -> Result<f64, ConfigError> {
+    let tolerance = map.f64("tolerance")?;
+    if tolerance >= LEAST_TOLERANCE {
+        return Ok(tolerance);
+    }
+    let remedy = format!("write {LEAST_TOLERANCE} m or more; 0.02 suits the test bed");
+    Err(map.node("tolerance")?.error("is nearer to its segment than any robot can know that it is", remedy))
 }
 
 fn share(map: &Map<'_>) -> Result<f64, ConfigError> {

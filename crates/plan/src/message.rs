@@ -1,8 +1,8 @@
 //! Formations as messages ask for them.
 
-use crate::plan::{ChainPlaces, Frame, Motion, Place, Plan, QueuePlan};
+use crate::plan::{Frame, Motion, Place, Plan, QueuePlan};
 use crate::segment::{SegmentError, shape_from_message};
-use crate::{MOST_ROBOTS, ON_SEGMENT, SHARES};
+use crate::{ChainPlaces, LEAST_TOLERANCE, MOST_ROBOTS, NO_VERTEX, NoRoom, ON_SEGMENT, ONE_VERTEX, SHARES};
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveError};
 use trench_msgs::msg::{Formation, Queue};
@@ -20,9 +20,23 @@ pub enum FormationError {
     #[error("the shares add up to {0}: make them add up to 1, none of them negative")]
     Shares(f64),
     /// A queue without a vertex.
-    #[error("queue {queue} has no vertex: give one or two points of its segment")]
+    #[error("queue {queue}: {NO_VERTEX}; give one or two points of its segment")]
     NoVertex {
         /// Its name.
+        queue: String,
+    },
+    /// A chain with several.
+    #[error("queue {queue}: {count} vertices, but {ONE_VERTEX}")]
+    Vertices {
+        /// Its name.
+        queue: String,
+        /// How many.
+        count: usize,
+    },
+    /// Two queues that cannot be told apart.
+    #[error("two queues are called {queue}: give each its own name")]
+    Twice {
+        /// Their name.
         queue: String,
     },
     /// A vertex off its segment.
@@ -34,12 +48,20 @@ pub enum FormationError {
         distance: f64,
     },
     /// A chain that is longer than its segment.
-    #[error("queue {queue} has {room:.3} m of segment behind its first vertex: too short for its chain")]
+    #[error("queue {queue}: {error}; {}", error.remedy())]
     Chain {
         /// The queue's name.
         queue: String,
+        /// What there is, and what it needs.
+        error: NoRoom,
+    },
+    /// A tolerance that no robot keeps.
+    #[error("queue {queue}: tolerance is {value}: it must be {LEAST_TOLERANCE} m or more")]
+    Tolerance {
+        /// The queue's name.
+        queue: String,
         /// m.
-        room: f64,
+        value: f64,
     },
     /// A number that is no number, or negative where that means nothing.
     #[error("queue {queue}: {name} is {value}: it must be finite and not negative")]
@@ -79,6 +101,11 @@ pub fn plan_from_message(formation: &Formation) -> Result<Plan, FormationError> 
     if !(fractions && (total - 1.0).abs() <= SHARES) {
         return Err(FormationError::Shares(total));
     }
+    for (index, queue) in formation.queues.iter().enumerate() {
+        if formation.queues[..index].iter().any(|earlier| earlier.name == queue.name) {
+            return Err(FormationError::Twice { queue: queue.name.clone() });
+        }
+    }
     let queues = formation.queues.iter().map(|queue| queue_from_message(queue, total)).collect::<Result<_, _>>()?;
     Ok(Plan { name: formation.name.clone(), frame, motion: Motion { approach: 0.0, speed: 0.0 }, queues })
 }
@@ -92,6 +119,9 @@ fn queue_from_message(queue: &Queue, total: f64) -> Result<QueuePlan, FormationE
         }
     }
     let segment = |error: SegmentError| FormationError::Segment { queue: name(), error };
+    if queue.tolerance < LEAST_TOLERANCE {
+        return Err(FormationError::Tolerance { queue: name(), value: queue.tolerance });
+    }
     let shape = shape_from_message(&queue.segment).map_err(segment)?;
     let curve = Curve::new(&shape, queue.segment.open_start, queue.segment.open_end)
         .map_err(|error: CurveError| segment(error.into()))?;
@@ -107,7 +137,8 @@ fn queue_from_message(queue: &Queue, total: f64) -> Result<QueuePlan, FormationE
     let Some(&first) = ends.first() else { return Err(FormationError::NoVertex { queue: name() }) };
     let chain = (queue.places > 0).then_some(ChainPlaces { robots: queue.places, spacing: queue.spacing });
     let places = match chain {
-        Some(chain) => chain.along(&curve, first).map_err(|room| FormationError::Chain { queue: name(), room })?,
+        Some(_) if ends.len() > 1 => return Err(FormationError::Vertices { queue: name(), count: ends.len() }),
+        Some(chain) => chain.along(&curve, first).map_err(|error| FormationError::Chain { queue: name(), error })?,
         None => ends.iter().map(|&end| Place { start: end, end }).collect(),
     };
     let (share, tolerance) = (queue.share / total, queue.tolerance);
@@ -159,11 +190,17 @@ mod tests {
         check(&|bad| bad.header.frame_id = "moon".to_owned(), "frame_id is `moon`");
         check(&|bad| bad.queues[0].share = -0.5, "add up to 0");
         check(&|bad| bad.queues[0].share = f64::NAN, "add up to NaN");
-        check(&|bad| bad.queues[0].vertices.clear(), "left has no vertex");
+        check(&|bad| bad.queues[0].vertices.clear(), "queue left: a queue without a vertex");
+        check(
+            &|bad| bad.queues[0].vertices.extend(good.queues[0].vertices.clone()),
+            "queue left: 2 vertices, but a chain",
+        );
+        check(&|bad| bad.queues[1].name = "left".to_owned(), "two queues are called left");
+        check(&|bad| bad.queues[1].tolerance = 0.0, "queue right: tolerance is 0: it must be 0.001 m or more");
         check(&|bad| bad.queues[0].vertices[0].y = 1.0, "0.7000 m away");
         check(&|bad| bad.queues[0].vertices[0].x = f64::NAN, "away from its segment");
         check(&|bad| bad.queues[0].places = u32::MAX, "queue left: places");
-        check(&|bad| bad.queues[0].places = 400, "too short for its chain");
+        check(&|bad| bad.queues[0].places = 400, "the chain does not fit: it is 159.600 m long");
         check(&|bad| bad.queues[1].tolerance = f64::INFINITY, "queue right: tolerance is inf");
         check(&|bad| bad.queues[1].segment.points.clear(), "needs two points");
         check(&|bad| bad.queues[1].segment.points[0].x = f64::NAN, "queue right");

@@ -1,6 +1,6 @@
 //! A formation with its curves.
 
-use crate::ON_SEGMENT;
+use crate::ChainPlaces;
 use crate::segment::message_from_shape;
 use std::hash::Hasher;
 use trench_formation::Vector2;
@@ -56,7 +56,7 @@ pub struct QueuePlan {
     pub shape: CurveShape,
     /// S.
     pub curve: Curve,
-    /// X: one or two vertices, m, in the formation's frame. The first is the team goal.
+    /// X: its vertices, m, in the formation's frame, one at least. The first is the team goal, and all that a chain has.
     pub vertices: Vec<Vector2<f64>>,
     /// C: fraction of the robots.
     pub share: f64,
@@ -66,33 +66,6 @@ pub struct QueuePlan {
     pub chain: Option<ChainPlaces>,
     /// Places, one a robot.
     pub places: Vec<Place>,
-}
-
-/// Places along the segment, one behind the other: the first at the first vertex.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ChainPlaces {
-    /// How many robots.
-    pub robots: u32,
-    /// Between neighbours, m of arc length.
-    pub spacing: f64,
-}
-
-impl ChainPlaces {
-    /// The places behind `vertex` (arc length, m), on the side of the segment that is longer.
-    ///
-    /// # Errors
-    /// The length that is there, m, where that is too short.
-    pub fn along(self, curve: &Curve, vertex: f64) -> Result<Vec<Place>, f64> {
-        let (from, to) = curve.domain();
-        let (before, after) = (vertex - from, to - vertex);
-        let (sign, room) = if before >= after { (-1.0, before) } else { (1.0, after) };
-        let needed = self.spacing * f64::from(self.robots.saturating_sub(1));
-        if needed > room + ON_SEGMENT {
-            return Err(room);
-        }
-        let place = |index: u32| (vertex + sign * self.spacing * f64::from(index)).max(from).min(to);
-        Ok((0..self.robots).map(place).map(|end| Place { start: end, end }).collect())
-    }
 }
 
 /// A formation.

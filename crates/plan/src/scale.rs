@@ -1,6 +1,7 @@
 //! Formations made larger or smaller about the origin of their frame.
 
-use crate::plan::{ChainPlaces, Motion, Place, Plan, QueuePlan};
+use crate::ChainPlaces;
+use crate::plan::{Motion, Place, Plan, QueuePlan};
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveError, CurveShape};
 

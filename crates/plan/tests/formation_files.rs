@@ -97,6 +97,67 @@ fn starts_without_their_vertices() {
 }
 
 #[test]
+fn a_queue_without_a_vertex() {
+    let error = refused("starts: [[0.5, 0.5]]\n  vertices: [[1.5, 0.5]]", "vertices: []");
+    let expected = "pair.yaml:7: queues[0].vertices: a queue without a vertex (Definition 2.1.1 has one or two): the first is the \
+                    team goal, to which its leader goes and from which the others are ranked; give one or two points of the segment";
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn a_chain_has_one_vertex_for_others_would_mean_nothing() {
+    let text = "vertices: [[1.5, 0.5], [0.5, 0.5]]\n  chain: {robots: 2, spacing: 0.3}";
+    let error = refused("starts: [[0.5, 0.5]]\n  vertices: [[1.5, 0.5]]", text);
+    let expected = "pair.yaml:7: queues[0].vertices: 2 vertices, but a chain has one vertex, the team goal: its places follow from \
+                    that one and its spacing; leave out the others, or leave out chain to have a place at each";
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn two_queues_of_one_name() {
+    let queue = GOOD.split("queues:\n").nth(1).unwrap();
+    let text = (GOOD.to_owned() + queue).replace("share: 1.0", "share: 0.5");
+    let error = parse("pair.yaml", &text).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "pair.yaml:11: queues[1].name = line: is the name of an earlier queue too; give each queue its own name"
+    );
+}
+
+#[test]
+fn a_tolerance_that_no_robot_keeps() {
+    for tolerance in ["0.0", "-0.02", "0.0009"] {
+        let error = refused("tolerance: 0.02", &format!("tolerance: {tolerance}"));
+        let expected = format!(
+            "pair.yaml:10: queues[0].tolerance = {tolerance}: is nearer to its segment than any robot can know that it is; write \
+             0.001 m or more; 0.02 suits the test bed"
+        );
+        assert_eq!(error, expected);
+    }
+}
+
+/// A circle of 3.77 m, the vertex opposite the seam.
+#[test]
+fn a_chain_goes_round_a_closed_segment() {
+    let line = "{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}\n  starts: [[0.5, 0.5]]\n  vertices: [[1.5, 0.5]]";
+    let circle = |robots: u32| {
+        format!(
+            "{{kind: ellipse, centre: [1.2, 0.9], semi_axes: [0.6, 0.6]}}\n  vertices: [[0.6, 0.9]]\n  \
+             chain: {{robots: {robots}, spacing: 0.36}}"
+        )
+    };
+    let plan = parse("pair.yaml", &GOOD.replace(line, &circle(10))).unwrap();
+    let queue = &plan.queues[0];
+    let at = |place: usize| queue.curve.at(queue.places[place].end).point;
+    let nearest = (0..10).flat_map(|one| (0..one).map(move |other| (at(one) - at(other)).norm())).fold(9.0, f64::min);
+    assert_eq!((queue.places.len(), (nearest * 1e4).round()), (10, 3546.0));
+    let error = parse("pair.yaml", &GOOD.replace(line, &circle(11))).unwrap_err().to_string();
+    let expected = "pair.yaml:8: queues[0].chain: the chain does not fit: round the closed segment it needs 3.960 m, and that is \
+                    3.770 m long; take fewer robots, a smaller spacing or a longer segment";
+    assert_eq!(error, expected);
+}
+
+#[test]
 fn wrong_types_and_kinds() {
     let error = refused("speed: 0.1", "speed: fast");
     assert!(error.starts_with("pair.yaml:3: motion.speed = fast"), "{error}");

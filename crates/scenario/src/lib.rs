@@ -4,17 +4,19 @@
 //! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
 
 mod closest;
+mod launch;
 mod law;
 mod measures;
 mod read;
 mod scenario;
 mod simulation;
 
+pub use launch::{Argument, Launch};
 pub use law::{ChosenLaw, GoalLaw};
 pub use measures::{CaseSummary, LyapunovSummary, Measures, ObstacleSummary, RobotSummary, Summary};
 pub use read::{is_scenario, parse};
 pub use scenario::{
-    Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Launch, Regulating,
-    RegulatingCase, Scenario, Seat, Start, Task, Timing,
+    Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Regulating, RegulatingCase,
+    Scenario, Seat, Start, Task, Timing,
 };
 pub use simulation::{RunError, Sample, Simulation};

@@ -1,6 +1,6 @@
 //! What a scenario file says.
 
-use crate::{ChosenLaw, GoalLaw};
+use crate::{ChosenLaw, GoalLaw, Launch};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Course};
 use trench_formation::curve::CurveShape;
@@ -150,15 +150,6 @@ pub struct Directed {
     pub chain: ZonedChainScenario<AnyTrench>,
     /// The whole segment, m.
     pub segment: CurveShape,
-}
-
-/// A launch file, driven as `trench sim` drives it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Launch {
-    /// Relative to the scenario file.
-    pub file: String,
-    /// Arguments of the launch file.
-    pub arguments: Vec<(String, String)>,
 }
 
 /// A picture of the thesis.

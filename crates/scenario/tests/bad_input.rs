@@ -36,6 +36,11 @@ fn told(name: &str, old: &str, new: &str, expected: &[&str]) -> usize {
     line
 }
 
+/// What is said of a mistake.
+fn check_told(name: &str, old: &str, new: &str) -> String {
+    parse(name, &file(name).replace(old, new)).unwrap_err().to_string()
+}
+
 const SEGMENT: &str = "{kind: line, points: [[-20.0, 0.0], [20.0, 0.0]]}";
 const TRENCH: &str = "{kind: hyperbolic, alpha: 10.0, a: 1.0}";
 
@@ -133,11 +138,36 @@ fn potentials() {
     check("7.11.yaml", TRENCH, "{kind: table, slope: [[0, 0], [1, 2], [0.5, 3]]}", &["trench.slope", "row 3"]);
     check("7.11.yaml", TRENCH, "{kind: expression, potential: \"x^2 +\"}", &["trench.potential"]);
     check("7.11.yaml", TRENCH, "{kind: expression, potential: \"2*abs(x) + 3*(1 - cos(x))\"}", &["trench", "trapped"]);
+    let range = "{kind: expression, potential: \"x^2\", range: -3}";
+    check("7.11.yaml", TRENCH, range, &["trench.range = -3: is not positive; write a number above 0"]);
+    let not_even = "{kind: expression, slope: \"1 + x\"}";
+    let error = check_told("7.11.yaml", TRENCH, not_even);
+    assert!(error.contains("Definition 5.2.1") && !error.contains("trench check"), "{error}");
     check("7.11.yaml", TRENCH, "{kind: hyperbolic, alpha: -1.0, a: 1.0}", &["trench.alpha", "not positive"]);
+}
+
+/// The numbers that were once accepted, and told as infinite gaps and steps that are too long.
+#[test]
+fn numbers_beyond_everything() {
+    let far = "is beyond all that robots have to do with; write metres, seconds, m/s: at most 1000000";
+    let rectangle = "- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]]}";
+    let disc = "- {disc: [0.0, 1.0e+308], radius: 1.0}";
+    check("7.11.yaml", rectangle, disc, &["obstacles[0].disc[1] = 1.0e+308", far]);
+    let fast = "- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]], velocity: [1.0e+308, 0.0]}";
+    check("7.11.yaml", rectangle, fast, &["obstacles[0].velocity[0] = 1.0e+308", far]);
+    check("7.11.yaml", "[1.0, 9.0]", "[1.0e+308, 9.0]", &["robots[0].position[0] = 1.0e+308", far]);
+    check("7.11.yaml", SEGMENT, "{kind: line, points: [[-2.0e+6, 0.0], [20.0, 0.0]]}", &["segment.points[0][0]", far]);
 }
 
 #[test]
 fn timing() {
+    let every = "step: 0.001";
+    check(
+        "7.11.yaml",
+        every,
+        &format!("{every}\nsteps_per_tick: 0"),
+        &["steps_per_tick = 0: leaves robots without a tick; write 1 or more steps a tick"],
+    );
     check("7.11.yaml", "step: 0.001", "step: 0.0", &["step", "not positive"]);
     check("7.11.yaml", "record_every: 0.05", "record_every: 0.0015", &["record_every", "multiple"]);
     check("7.11.yaml", "method: semi_implicit_euler", "method: rk4", &["method", "semi_implicit_euler"]);

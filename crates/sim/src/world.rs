@@ -3,7 +3,7 @@
 use crate::contact::Surroundings;
 use crate::history::History;
 use crate::unicycle::{rolled, wrapped};
-use crate::{Field, Laser, Motor, Obstacle, Random, Thing, Truth, Wheel, range_sensor};
+use crate::{Field, Laser, Motor, Obstacle, Random, Thing, Truth, Wheel, overlaps, range_sensor};
 use std::collections::BTreeSet;
 use trench_optics::Pose2;
 
@@ -64,12 +64,13 @@ pub struct World {
 }
 
 impl World {
-    /// Robots at rest at their poses, at time `start` (ns).
+    /// Robots at rest at their poses, at time `start` (ns). Bodies that overlap there touch from the start.
     #[must_use]
     pub fn new(start: u64, body: Body, field: Field, obstacles: Vec<Obstacle>, poses: Vec<Pose2>) -> Self {
         let count = poses.len();
         let histories = poses.iter().map(|&pose| History::new(start, Truth { pose, v: 0.0, omega: 0.0 })).collect();
-        Self {
+        let overlaps = overlaps(&poses, &obstacles, field, body.radius);
+        let mut world = Self {
             now: start,
             body,
             field,
@@ -82,7 +83,11 @@ impl World {
             histories,
             touching: BTreeSet::new(),
             contacts: Vec::new(),
+        };
+        for overlap in overlaps {
+            world.report(overlap.robot, overlap.thing);
         }
+        world
     }
 
     /// The time it has reached, ns.

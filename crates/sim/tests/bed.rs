@@ -171,6 +171,19 @@ fn bodies_block_each_other_and_say_so_once() {
     assert!((third.x - 2.4).abs() < 1e-4 && third.x <= 2.4);
 }
 
+/// Who begins in somebody or over the edge touches them: a run must not say that there was no contact.
+#[test]
+fn bodies_that_overlap_at_the_start_touch_from_then_on() {
+    let setup = setup(&[pose(0.8, 0.5, 0.0), pose(0.85, 0.5, 0.0), pose(2.45, 1.0, 0.0), pose(1.6, 1.0, 0.0)]);
+    let (_, outputs) = run(setup, &[], 500, &[]);
+    let contacts: Vec<_> = outputs
+        .iter()
+        .filter_map(|output| if let Output::Contact(contact) = output { Some(contact) } else { None })
+        .map(|contact| (contact.at, contact.robot, contact.thing))
+        .collect();
+    assert_eq!(contacts, [(START, 1, Thing::Robot(0)), (START, 2, Thing::Edge(1))]);
+}
+
 #[test]
 fn an_ideal_motor_follows_at_once() {
     let mut ideal = setup(&[pose(0.5, 0.5, 0.0)]);

@@ -4,6 +4,7 @@ use crate::organise::Seated;
 use std::collections::BTreeMap;
 use trench_formation::Vector2;
 use trench_formation::assignment::robots_per_queue;
+use trench_formation::chain::joining;
 use trench_plan::Plan;
 
 /// The seats without the robots that `gone` names (A.22, case 2.1): nobody gets another vertex; in a chain those behind move
@@ -13,7 +14,7 @@ pub(crate) fn without(plan: &Plan, seats: &[Seated], gone: impl Fn(&str) -> bool
 }
 
 /// The seats with a robot more (A.22, case 2.2): in the queue whose share lacks one, the nearest of them. In a chain it takes
-/// the place where it is, by distance to the team goal; otherwise the nearest free vertex. Nothing where all are taken. Shares are
+/// the place where it makes the chain longer by the least; otherwise the nearest free vertex. Nothing where all are taken. Shares are
 /// those of a formation of `size` robots: all who will take part, so that several who come back at once each find their place.
 pub(crate) fn with(
     plan: &Plan,
@@ -28,8 +29,11 @@ pub(crate) fn with(
     let free = (0..plan.queues[queue].places.len()).filter(|place| team.iter().all(|seat| seat.place != *place));
     let place = free.min_by(|a, b| (end(*a) - position).norm().total_cmp(&(end(*b) - position).norm()))?;
     let goal = plan.queues[queue].vertices.first().copied().unwrap_or_default();
-    let distance = |name: &str| others.get(name).map_or(f64::INFINITY, |position| (position - goal).norm());
-    let before = team.iter().filter(|seat| distance(&seat.robot) <= (position - goal).norm()).count();
+    // Who is not seen just now is no mark to go by.
+    let seen: Vec<(usize, Vector2<f64>)> =
+        (0..).zip(&team).filter_map(|(rank, seat)| Some((rank, *others.get(&seat.robot)?))).collect();
+    let marks: Vec<Vector2<f64>> = seen.iter().map(|(_, position)| *position).collect();
+    let before = seen.get(joining(position, goal, &marks)).map_or(team.len(), |(rank, _)| *rank);
     let seat = Seated { robot: robot.to_owned(), queue, place, rank: 0, leader: None };
     let at = seats.iter().filter(|seat| seat.queue < queue).count() + before;
     let mut all = seats.to_vec();

@@ -12,6 +12,7 @@ mod frames;
 mod interface;
 mod messages;
 mod obstacles;
+mod poses;
 mod radio;
 mod settings;
 mod time;

@@ -27,6 +27,7 @@ const MOST_CORNERS: usize = 1000;
 /// The first thing that is wrong, with file, line, key and remedy.
 pub fn parse(file: &str, text: &str) -> Result<Vec<Obstacle>, ConfigError> {
     let root = yaml::parse(file, text)?;
+    root.bounded()?;
     let top = root.map()?;
     let mut obstacles = Vec::new();
     for (id, node) in (1..).zip(top.list("obstacles")?) {
@@ -121,6 +122,11 @@ mod tests {
         check("{polygon: [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]}", "polygon");
         check("{polygon: [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]}", "polygon");
         check("{polygon: [[0.0, .nan]], radius: 0.1}", "polygon");
+        check("{polygon: [[0.0, 1.0e+308]], radius: 0.1}", "obstacles[0].polygon[0][1] = 1.0e+308: is beyond");
+        check(
+            "{polygon: [[0.0, 0.0]], radius: 0.1, velocity: [1.0e+308, 0.0]}",
+            "obstacles[0].velocity[0] = 1.0e+308: is beyond",
+        );
         check("{polygon: [[0.0, 0.0]], radius: .nan}", "radius");
         check("{polygon: [[0.0, 0.0]], radius: 0.1, path: {places: [], speed: 1.0}}", "path.places");
         check("{polygon: [[0.0, 0.0]], radius: 0.1, path: {places: [[1.0, 1.0]], speed: 0.0}}", "path.speed");

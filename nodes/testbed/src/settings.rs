@@ -1,12 +1,13 @@
 //! The test bed's parameters.
 
+use crate::poses::poses;
 use crate::{faults, obstacles, radio};
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
 use trench_core::Files;
-use trench_optics::{Camera, Overhead, Pad, Pose2};
+use trench_optics::{Camera, Overhead, Pad};
 use trench_radio::{Key, MAX_ROBOTS};
 use trench_sim::camera::{Appearance, BALANCED_FOR, Background};
-use trench_sim::{BedSetup, Body, Faults, Field, Laser, Motor, Obstacle, Random, Shutter, scattered};
+use trench_sim::{BedSetup, Body, Faults, Field, Laser, Motor, Shutter};
 
 /// What the test bed is told. All of it is fixed while it runs.
 #[derive(Debug, Clone)]
@@ -222,29 +223,6 @@ fn ids(parameters: &Parameters) -> Result<Vec<u8>, ConfigError> {
         return Err(parameters.error("ids", format!("{} is there twice", twice.1), "give each robot its own id"));
     }
     Ok(ids.iter().map(|id| *id as u8).collect())
-}
-
-fn poses(
-    parameters: &Parameters,
-    field: Field,
-    body: Body,
-    obstacles: &[Obstacle],
-    seed: u64,
-) -> Result<Vec<Pose2>, ConfigError> {
-    let (count, numbers) = (parameters.str_list("robots")?.len(), parameters.f64_list("poses")?);
-    if numbers.is_empty() {
-        let gap = parameters.f64("random.gap")?;
-        return scattered(count, field, body, gap, obstacles, &mut Random::new(seed, 0)).ok_or_else(|| {
-            let problem = format!("no room for {count} robots this far from each other");
-            parameters.error("random.gap", problem, "write a smaller gap, or take a larger field")
-        });
-    }
-    if numbers.len() != 3 * count {
-        let problem = format!("has {} numbers for {count} robots", numbers.len());
-        return Err(parameters.error("poses", problem, "write x, y and heading for each robot"));
-    }
-    let poses = numbers.chunks_exact(3).map(|pose| Pose2 { x: pose[0], y: pose[1], theta: pose[2] });
-    Ok(poses.collect())
 }
 
 fn cameras(parameters: &Parameters, files: &dyn Files) -> Result<Vec<Overhead>, ConfigError> {

@@ -1,14 +1,17 @@
 //! Reading the files, and those that they lead to.
 
 use super::super::launch::name_and_value;
+use super::super::named;
+use super::admit::{self, CONTROLLER};
 use super::bed::{Field, field, starts};
 use super::kind;
 use super::kind::Kind;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use trench_check::{Controller, Passing, Standing, Start, Team, team};
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
-use trench_core::Files;
+use trench_core::{Files, StartError};
 use trench_harness::{Disk, LoadError, catalog};
 use trench_launch::Process;
 use trench_plan::Plan;
@@ -27,6 +30,24 @@ pub(super) enum CheckError {
     Argument(String),
     #[error("no node is called {0}")]
     NoNode(&'static str),
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Refused(Vec<LoadError>),
+    #[error(transparent)]
+    Start(#[from] StartError),
+}
+
+impl CheckError {
+    /// The error about a launch file, told where the scenario names it.
+    fn of_scenario(self, launch: &trench_scenario::Launch) -> Self {
+        match self {
+            Self::Config(error) => Self::Config(launch.blamed(error)),
+            Self::Load(error) => Self::Config(named::refused(launch, &error)),
+            Self::Refused(errors) => {
+                Self::Parameters(errors.iter().map(|error| named::refused(launch, error)).collect())
+            }
+            other => other,
+        }
+    }
 }
 
 /// All there is to judge.
@@ -42,7 +63,9 @@ pub(super) struct Gathered {
     pub(super) fields: Vec<(String, Vec<Standing>, Passing)>,
 }
 
-const CONTROLLER: &str = "formation_controller";
+/// Where a controller stands whose launch file is not known.
+const NAMESPACE: &str = "/robot1";
+
 const ASSIGNMENT: &str = "leader_assignment";
 const MAPPER: &str = "obstacle_mapper";
 const TESTBED: &str = "testbed";
@@ -55,8 +78,8 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
     let (mut fields, mut begin) = (Vec::new(), Vec::new());
     let mut parameter_files: Vec<(String, String)> = Vec::new();
-    // With the arguments that scenarios give them.
-    let mut launches: Vec<(PathBuf, Vec<(String, String)>)> = Vec::new();
+    // With what scenarios say of them.
+    let mut launches: Vec<(PathBuf, Option<trench_scenario::Launch>)> = Vec::new();
     for path in files {
         let name = path.display().to_string();
         let text = Disk.read("FILE", &name)?;
@@ -68,19 +91,25 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
                 match &scenario.task {
                     Task::Launch(task) => {
                         let file = path.parent().unwrap_or(Path::new("")).join(&task.file);
-                        launches.push((file, task.arguments.clone()));
+                        launches.push((file, Some(task.overridden_by(&arguments))));
                     }
                     _ => scenarios.push((name.clone(), scenario)),
                 }
             }
-            Kind::Launch => launches.push((path.to_owned(), Vec::new())),
+            Kind::Launch => launches.push((path.to_owned(), None)),
         }
     }
-    for (file, own) in launches {
-        let known: Vec<String> = trench_launch::arguments(&file)?.into_iter().map(|argument| argument.name).collect();
+    for (file, scenario) in launches {
+        let of_scenario = |error: CheckError| match &scenario {
+            Some(scenario) => error.of_scenario(scenario),
+            None => error,
+        };
+        let known = trench_launch::arguments(&file).map_err(|error| of_scenario(error.into()))?;
+        let known: Vec<String> = known.into_iter().map(|argument| argument.name).collect();
         unknown.retain(|name| !known.contains(name));
-        // What the command line says comes later, and wins.
-        let launched = launch(&file, own.iter().chain(arguments.iter().filter(|(name, _)| known.contains(name))))?;
+        let own = scenario.iter().flat_map(trench_scenario::Launch::pairs);
+        let given = arguments.iter().filter(|(name, _)| known.contains(name)).cloned();
+        let launched = launch(&file, own.chain(given).collect()).map_err(of_scenario)?;
         fields.extend(launched.field()?);
         begin.extend(launched.starts()?);
         formations.extend(launched.formations);
@@ -103,7 +132,8 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
 fn from_files(files: &[(String, String)]) -> Result<Controller, CheckError> {
     let sources: Vec<Source<'_>> = files.iter().map(|(name, text)| Source::File { name, text }).collect();
     let node = catalog::node(CONTROLLER).ok_or(CheckError::NoNode(CONTROLLER))?;
-    let parameters = resolve(&sources, "/robot1", CONTROLLER, &(node.parameters)()).map_err(CheckError::Parameters)?;
+    let parameters = resolve(&sources, NAMESPACE, CONTROLLER, &(node.parameters)()).map_err(CheckError::Parameters)?;
+    admit::controller(NAMESPACE, &parameters)?;
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     Ok(Controller { name: names.join(" + "), parameters })
 }
@@ -137,8 +167,9 @@ impl Launched {
 }
 
 /// The controllers and the formation that a launch file starts.
-fn launch<'a>(file: &Path, arguments: impl Iterator<Item = &'a (String, String)>) -> Result<Launched, CheckError> {
-    let plan = trench_harness::plan(file, &arguments.cloned().collect())?;
+fn launch(file: &Path, arguments: BTreeMap<String, String>) -> Result<Launched, CheckError> {
+    let plan = trench_harness::plan(file, &arguments)?;
+    admit::launched(&plan)?;
     let mut launched = Launched::default();
     for process in &plan.processes {
         match program(process) {

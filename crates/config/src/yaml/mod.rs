@@ -21,6 +21,7 @@
 //! number, and real numbers must be finite. Anchors, aliases, tags other than `!!str`, duplicate keys and several
 //! documents in one file are errors.
 
+mod bounded;
 mod from_node;
 mod load;
 mod map;

@@ -94,3 +94,14 @@ proptest! {
         let _ = parse("f.yaml", &text);
     }
 }
+
+#[test]
+fn numbers_beyond_everything_are_found_wherever_they_stand() {
+    let read = |text: &str| parse("field.yaml", text).unwrap().bounded();
+    assert_eq!(read("a: [1.0e+6, -1.0e+6, 1000000]\nb: {c: .nan, d: \"1e308\", e: text}\n"), Ok(()));
+    let error = read("a: 1\nb:\n- {c: [0.0, -1.0e+308]}\n").unwrap_err().to_string();
+    let expected = "field.yaml:3: b[0].c[1] = -1.0e+308: is beyond all that robots have to do with; write metres, seconds, m/s: \
+                    at most 1000000";
+    assert_eq!(error, expected);
+    assert!(read("a: 1000001\n").is_err());
+}

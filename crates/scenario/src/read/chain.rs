@@ -118,19 +118,26 @@ fn buildable(map: &Map<'_>, robots: &[&Node], scenario: &ChainScenario<AnyTrench
     if let Err(error) = ChainSimulation::new(scenario.clone()) {
         let text = error.to_string();
         return Err(match error {
+            // These say themselves what would be right.
             ScenarioError::StartInZoneOne(_, rank, _)
             | ScenarioError::BodiesOverlap(_, rank, ..)
             | ScenarioError::StartInObstacle(rank, _)
-            | ScenarioError::BodyInObstacle(rank, ..) => {
+            | ScenarioError::BodyInObstacle(rank, ..)
+            | ScenarioError::RobotNotFinite(rank) => {
                 robots.get(rank - 1).map_or_else(|| map.error("robots", &*text, ""), |node| node.error(&*text, ""))
             }
+            ScenarioError::NoRobots => map.error("robots", text, ""),
+            ScenarioError::NotFinite(_) => map.as_node().error(text, ""),
+            ScenarioError::Step(..) if scenario.steps_per_tick == 0 => {
+                map.error("steps_per_tick", "leaves robots without a tick", "write 1 or more steps a tick")
+            }
+            ScenarioError::Step(..) => map.error("step", text, "write a step above 0 s"),
             ScenarioError::Integration(..) => map.error("method", text, "write semi_implicit_euler"),
             ScenarioError::SightOfWalls => map.error("sight", text, "take `apart` or the sight away"),
             ScenarioError::SightTooFine(_) => map.error("sight", text, "give a longer `piece`"),
             ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
             ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
-            _ => map.as_node().error(text, ""),
         });
     }
     let whole = (0.0, scenario.segment.length());

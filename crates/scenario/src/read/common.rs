@@ -118,7 +118,7 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
         }
         7 => AnyTrench::Critical(CriticallyDamped(damping(&map, "damping")?)),
         _ => {
-            let range = map.get_or("range", RANGE)?;
+            let range = if map.opt_node("range").is_some() { positive(&map, "range")? } else { RANGE };
             let (key, meaning) = match map.opt_node("potential") {
                 Some(_) => ("potential", Meaning::Potential),
                 None => ("slope", Meaning::Slope),
@@ -131,7 +131,11 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
     };
     map.finish()?;
     let judged = check_admissibility(&trench, RANGE);
-    judged.map_err(|error| map.as_node().error(error.to_string(), "choose another trench (trench check says more)"))?;
+    judged.map_err(|error| {
+        let remedy = "choose a trench that is least and flat at 0 and rises from there (Definition 5.2.1), for example {kind: hyperbolic, \
+                      alpha: 10.0, a: 1.0}";
+        map.as_node().error(error.to_string(), remedy)
+    })?;
     Ok(trench)
 }
 

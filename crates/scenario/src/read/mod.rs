@@ -8,7 +8,8 @@ mod goals;
 mod ranks;
 mod regulating;
 
-use crate::scenario::{Launch, Scenario, Task, Timing};
+use crate::scenario::{Scenario, Task, Timing};
+use crate::{Argument, Launch};
 use trench_config::ConfigError;
 use trench_config::yaml::{self, Map};
 use trench_formation::simulate::Integration;
@@ -54,6 +55,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
     let (timing, task) = match kind {
         Kind::Launch => (unused(), Task::Launch(launch(&map)?)),
         kind => {
+            root.bounded()?;
             let timing = timing(&map, kind)?;
             let task = match kind {
                 Kind::Regulation => Task::Regulating(regulating::read(&map)?),
@@ -119,8 +121,10 @@ fn launch(map: &Map<'_>) -> Result<Launch, ConfigError> {
     let mut arguments = Vec::new();
     if let Some(given) = map.opt_map("arguments")? {
         for entry in given.entries() {
-            arguments.push((entry.key.clone(), entry.node.str()?.to_owned()));
+            let (name, value) = (entry.key.clone(), entry.node.str()?.to_owned());
+            arguments.push(Argument { name, value, origin: entry.node.origin.clone() });
         }
     }
-    Ok(Launch { file: map.str("launch")?.to_owned(), arguments })
+    let file = map.node("launch")?;
+    Ok(Launch { file: file.str()?.to_owned(), origin: file.origin.clone(), arguments })
 }
