@@ -3,6 +3,7 @@
 
 mod bounds;
 mod hilare;
+mod open;
 mod ranks;
 mod trajectories;
 mod trenches;
