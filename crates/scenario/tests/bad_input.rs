@@ -161,8 +161,8 @@ fn messages_are_short() {
         error
     };
     let long = format!("{}y", "x + ".repeat(2000));
-    let unknown = told(&format!("{{kind: graph, expression: \"{long}\", from: 0.0, to: 1.0}}"));
-    assert!(unknown.contains("segment.expression = \"x + x") && unknown.contains("unknown"), "{unknown}");
+    let whole = told(&format!("{{kind: graph, expression: \"{long}\", from: 0.0, to: 1.0}}"));
+    assert!(whole.contains("segment.expression = \"x + x") && whole.contains("too long"), "{whole}");
     let wave = |wavelength: &str, amplitude: &str| {
         told(&format!(
             "{{kind: sinusoid, origin: [0.0, 0.0], length: 10.0, wavelength: {wavelength}, amplitude: {amplitude}}}"

@@ -93,7 +93,7 @@ pub(super) fn cut(
             return Err(CurveError::ManyPieces { arc_length: reached });
         } else if depth == MOST_SPLITS {
             let (what, value) = ("the slope of the curve", primitive.evaluate(from).first.amax());
-            let too_steep = !(value <= LARGEST);
+            let too_steep = value.is_nan() || value > LARGEST;
             return Err(if too_steep {
                 CurveError::Size { what, value }
             } else {
