@@ -1,5 +1,6 @@
 //! Errors a user can act on.
 
+use crate::brief::{elided, with_short_numbers};
 use std::fmt;
 use std::sync::Arc;
 
@@ -62,14 +63,20 @@ pub struct ConfigError {
     pub remedy: String,
 }
 
+/// Most characters that are repeated of a value, and of what is said of it.
+const MOST_OF_VALUE: usize = 120;
+const MOST_OF_PROBLEM: usize = 600;
+
 impl ConfigError {
     fn text(&self) -> String {
-        let mut subject = self.key.clone();
+        let mut subject = elided(&self.key, MOST_OF_VALUE);
         if !self.value.is_empty() {
-            subject = if subject.is_empty() { self.value.clone() } else { format!("{subject} = {}", self.value) };
+            let value = elided(&self.value, MOST_OF_VALUE);
+            subject = if subject.is_empty() { value } else { format!("{subject} = {value}") };
         }
-        let parts = [self.origin.to_string(), subject, self.problem.clone()];
+        let said = |text: &str| elided(&with_short_numbers(text), MOST_OF_PROBLEM);
+        let parts = [self.origin.to_string(), subject, said(&self.problem)];
         let text = parts.iter().filter(|part| !part.is_empty()).map(String::as_str).collect::<Vec<_>>().join(": ");
-        if self.remedy.is_empty() { text } else { format!("{text}; {}", self.remedy) }
+        if self.remedy.is_empty() { text } else { format!("{text}; {}", said(&self.remedy)) }
     }
 }

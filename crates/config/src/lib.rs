@@ -7,6 +7,7 @@
 //!
 //! Nothing here reads a file: callers pass a name (for messages) and the text.
 
+mod brief;
 mod descriptor;
 mod error;
 mod parameters;

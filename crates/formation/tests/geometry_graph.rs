@@ -55,6 +55,12 @@ fn unusable_expressions_are_refused() {
     check("sqrt(x)", 0.0, 1.0, "infinitely steep at x = 0");
     check("2 + abs(x - 0.25)", -1.0, 1.0, "is not twice differentiable at x = 0.25 (abs at column 5): end the segment");
     check("x * sign(x)", -1.0, 1.0, "jumps or is infinitely steep at x = 0 (sign at column 5)");
+    check("max(0, x)^2", -1.0, 1.0, "is not twice differentiable at x = 0");
+    // They are, but intervals cannot tell.
+    let unknown = "could not be shown to be twice differentiable at x = 0 (abs at column";
+    check("x^2*abs(x)", -1.0, 1.0, unknown);
+    check("abs(x)^3", -1.0, 1.0, unknown);
+    assert!(Curve::new(&graph("x^2*sqrt(x^2 + 1e-6)", -1.0, 1.0), false, false).is_ok(), "the remedy");
     check("x", 1.0, 1.0, "but must go to a greater x");
     check("x", 0.0, f64::NAN, "the last x is not a finite number");
     assert!(Curve::new(&graph("abs(x)", 0.0, 1.0), false, false).is_ok(), "the kink is the end");

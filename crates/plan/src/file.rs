@@ -165,6 +165,13 @@ pub fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
             start_angle: map.f64("start_angle")?,
             sweep: map.f64("sweep")?,
         },
+        // The whole turn, to the last digit, which nobody writes.
+        "circle" => CurveShape::Arc {
+            centre: point(map.node("centre")?)?,
+            radius: map.f64("radius")?,
+            start_angle: map.opt_f64("start_angle")?.unwrap_or(0.0),
+            sweep: core::f64::consts::TAU,
+        },
         "ellipse" => CurveShape::Ellipse {
             centre: point(map.node("centre")?)?,
             semi_axes: map.get("semi_axes")?,
@@ -183,7 +190,7 @@ pub fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
             CurveShape::Graph { function, from: map.f64("from")?, to: map.f64("to")? }
         }
         _ => {
-            let remedy = "write line, polyline, spline, bezier, arc, ellipse, sinusoid or graph";
+            let remedy = "write line, polyline, spline, bezier, arc, circle, ellipse, sinusoid or graph";
             return Err(map.node("kind")?.error("is no kind of segment", remedy));
         }
     };
@@ -201,6 +208,7 @@ fn refused(map: &Map<'_>, error: &CurveError) -> ConfigError {
             map.error("expression", format!("{problem} at x = {x} (`{cause}` at column {column})"), *remedy)
         }
         CurveError::Range { .. } => map.error("to", error.to_string(), "write a greater one"),
+        CurveError::Sweep(_) => map.error("sweep", error.to_string(), "write kind: circle for a whole turn"),
         _ => map.as_node().error(error.to_string(), "mend the segment"),
     }
 }

@@ -214,6 +214,23 @@ fn a_graph_is_a_segment() {
     );
 }
 
+/// A whole turn has no end to go on from, and needs no digits of 2 pi.
+#[test]
+fn a_circle_is_closed() {
+    let line = "{kind: line, points: [[0.0, 0.5], [2.0, 0.5]]}";
+    let with = |segment: &str| GOOD.replace(line, segment);
+    let circle = "{kind: circle, centre: [1.5, 1.0], radius: 0.5, start_angle: 1.0}";
+    let text = with(circle).replace("  starts: [[0.5, 0.5]]\n", "");
+    assert!(parse("pair.yaml", &text).unwrap().queues[0].curve.is_closed());
+    let open = parse("pair.yaml", &text.replace("radius: 0.5", "radius: 0.5, open_end: true")).unwrap_err().to_string();
+    assert!(open.contains("a closed curve has no end"), "{open}");
+    let none = parse("pair.yaml", &text.replace("radius: 0.5", "radius: 0.0")).unwrap_err().to_string();
+    assert!(none.contains("the radius is 0, but must be greater than zero"), "{none}");
+    let arc = "{kind: arc, centre: [1.5, 1.0], radius: 0.5, start_angle: 0.0, sweep: 6.2832}";
+    let far = parse("pair.yaml", &with(arc)).unwrap_err().to_string();
+    assert!(far.contains("sweep = 6.2832") && far.contains("write kind: circle for a whole turn"), "{far}");
+}
+
 /// Each kind as it stands in a file, with the length that its closed form has and where it is half of that on.
 #[test]
 fn every_kind_of_segment_is_read_and_told_to_others() {
@@ -229,6 +246,7 @@ fn every_kind_of_segment_is_read_and_told_to_others() {
             quarter,
             [1.0 + FRAC_1_SQRT_2, 1.0 + FRAC_1_SQRT_2],
         ),
+        ("{kind: circle, centre: [1.0, 1.0], radius: 0.5}", PI, [0.5, 1.0]),
         ("{kind: ellipse, centre: [1.0, 1.0], semi_axes: [0.5, 0.5], rotation: 0.0}", PI, [0.5, 1.0]),
         (
             "{kind: sinusoid, origin: [0.0, 1.0], direction: 1.570796326794897, length: 2.0, amplitude: 0.0, wavelength: 1.0}",

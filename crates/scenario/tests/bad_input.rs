@@ -174,6 +174,32 @@ fn timing() {
     check("7.15.yaml", "method: semi_implicit_euler", "method: exact", &["method", "the others are driven"]);
     let safe = "method: exact\nlimits: {speed: 1.0, acceleration: 1.0}\nsafety: {body_radius: 0.1}";
     check("7.11.yaml", "method: semi_implicit_euler", safe, &["method", "safety filter", "write semi_implicit_euler"]);
+    let held = ["method", "does not go with `limits` and `safety`", "write semi_implicit_euler"];
+    check("5.6_bounded.yaml", "method: semi_implicit_euler", "method: rk4", &held);
+    let room = ["method", "does not go with `safety`", "write semi_implicit_euler"];
+    check("5.6_bounded.yaml", "method: semi_implicit_euler", "method: exact", &room);
     check("7.11.yaml", "kind: nearest_points", "kind: nearest_point", &["did you mean `nearest_points`?"]);
     check("7.11.yaml", "draws: trajectories", "draws: trajectory", &["figures[0].draws"]);
+}
+
+/// What is told fits on a screen, whatever the file says.
+#[test]
+fn messages_are_short() {
+    let told = |segment: &str| {
+        let error = parse("7.11.yaml", &file("7.11.yaml").replace(SEGMENT, segment)).unwrap_err().to_string();
+        assert!(error.len() < 500, "{} characters: {error}", error.len());
+        error
+    };
+    let long = format!("{}y", "x + ".repeat(2000));
+    let whole = told(&format!("{{kind: graph, expression: \"{long}\", from: 0.0, to: 1.0}}"));
+    assert!(whole.contains("segment.expression = \"x + x") && whole.contains("too long"), "{whole}");
+    let wave = |wavelength: &str, amplitude: &str| {
+        told(&format!(
+            "{{kind: sinusoid, origin: [0.0, 0.0], length: 10.0, wavelength: {wavelength}, amplitude: {amplitude}}}"
+        ))
+    };
+    assert!(wave("1.0e+308", "1.0").contains("the wavelength is 1e308"));
+    assert!(wave("-1.0e+308", "1.0").contains("the wavelength is -1e308"));
+    assert!(wave("1.0", "1.0e+200").contains("the amplitude is 1e200"));
+    assert!(wave("1.0e-4", "1.0").contains("fewer and longer waves"));
 }

@@ -77,7 +77,7 @@ impl<T: Trench> Agent<T> {
             let view = LeaderView { position: place.unwrap_or(state.position), distance: deviation, speed };
             (view, self.settings.zoning.radii())
         });
-        let whole = (0.0, around.curve.length());
+        let whole = around.curve.domain();
         self.seeker.seek(&self.settings.seeking, &moment.segment, (whole, &self.fragments), robot, leader)
     }
 }

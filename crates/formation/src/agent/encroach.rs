@@ -36,7 +36,7 @@ pub(super) fn is_near(then: Vector2<f64>, now: Vector2<f64>) -> bool {
 
 impl<T: Trench> Agent<T> {
     pub(super) fn find_fragments(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
-        let whole = (0.0, around.curve.length());
+        let whole = around.curve.domain();
         match self.settings.encroaching {
             Encroaching::Nothing => self.fragments = Fragments::whole(whole),
             Encroaching::Obstacles => self.fragments = self.left_by(around, around.apparent),
@@ -62,7 +62,7 @@ impl<T: Trench> Agent<T> {
         let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
         let known = self.encroachers.take().filter(|known| known.map_from_segment == map_from_segment);
         let mut known = known.map_or_else(Vec::new, |known| known.hulls);
-        let (segment, whole) = (around.moment(0.0).segment, (0.0, around.curve.length()));
+        let (segment, whole) = (around.moment(0.0).segment, around.curve.domain());
         let taken = |ApparentObstacle { shape, .. }: ApparentObstacle| match known
             .iter()
             .position(|(other, _)| *other == shape)
@@ -109,7 +109,7 @@ impl<T: Trench> Agent<T> {
 
     fn left_by(&self, around: &Surroundings<'_>, obstacles: &[ApparentObstacle]) -> Fragments {
         let outlines: Vec<Outline<'_>> = obstacles.iter().map(|obstacle| obstacle.shape.outline()).collect();
-        let (whole, settings) = ((0.0, around.curve.length()), &self.settings);
+        let (whole, settings) = (around.curve.domain(), &self.settings);
         Fragments::find(&around.moment(0.0).segment, whole, &outlines, settings.potential.cut(), settings.seeking.room)
     }
 

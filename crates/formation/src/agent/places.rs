@@ -31,7 +31,7 @@ impl<T: Trench> Agent<T> {
         let Some(place) = self.leaders_place(around) else { return fragments };
         let disc = [place];
         let outline = Outline { points: &disc, radius: 0.0 };
-        let (segment, whole) = (around.moment(0.0).segment, (0.0, around.curve.length()));
+        let (segment, whole) = (around.moment(0.0).segment, around.curve.domain());
         let (radii, room) = (self.settings.zoning.radii(), self.settings.seeking.room);
         let near = encroached(&segment, whole, &[outline], radii.rho);
         let Some(within) = fragments.meeting(&near, room) else { return fragments };

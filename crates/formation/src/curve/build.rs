@@ -4,8 +4,8 @@ use super::{
     box_tree::BoxTree,
     candidates::Candidates,
     error::CurveError,
-    graph,
-    piece::{Piece, cut},
+    extensions, graph,
+    piece::{LARGEST, Piece, cut},
     primitive::Primitive,
     shape::CurveShape,
     simple, spline,
@@ -35,11 +35,13 @@ impl Curve {
             length = cut(&primitive, index, interval, length, &mut pieces)?;
             primitives.push(primitive);
         }
+        let length = sized("the length of the curve", length)?;
         let tree = BoxTree::new(&pieces);
         let stamp = stamp(&pieces);
         let candidates = Candidates::default();
         let mut curve = Self { primitives, pieces, tree, candidates, stamp, length, closed, open_start, open_end };
         simple::check(&curve)?;
+        extensions::check(&curve)?;
         curve.candidates = Candidates::new(&curve.pieces, length);
         for index in 0..curve.pieces.len() {
             let shielded = curve.shielded(index);
@@ -109,7 +111,11 @@ fn spans(shape: &CurveShape) -> Result<(Vec<Span>, bool), CurveError> {
             let along = unit(finite("the direction", direction)?);
             let length = positive("the length", length)?;
             let wave_number = TAU / positive("the wavelength", wavelength)?;
-            let across = finite("the amplitude", amplitude)? * left_of(along);
+            let amplitude = finite("the amplitude", amplitude)?;
+            if amplitude != 0.0 {
+                sized("the amplitude", amplitude.abs())?;
+            }
+            let across = amplitude * left_of(along);
             let phase = finite("the phase", phase)?;
             Ok((vec![(Primitive::Sinusoid { origin, along, across, wave_number, phase }, (0.0, length))], false))
         }
@@ -165,7 +171,10 @@ fn apart(points: &[Vector2<f64>]) -> Result<(), CurveError> {
 }
 
 fn all_finite(what: &'static str, points: &[Vector2<f64>]) -> Result<(), CurveError> {
-    points.iter().try_for_each(|point| finite(what, point.x + point.y).map(drop))
+    points.iter().flat_map(|point| [point.x, point.y]).try_for_each(|coordinate| {
+        let coordinate = finite(what, coordinate)?;
+        if coordinate.abs() <= LARGEST { Ok(()) } else { Err(CurveError::Size { what, value: coordinate }) }
+    })
 }
 
 pub(super) fn finite(what: &'static str, value: f64) -> Result<f64, CurveError> {
@@ -173,7 +182,13 @@ pub(super) fn finite(what: &'static str, value: f64) -> Result<f64, CurveError> 
 }
 
 fn positive(what: &'static str, value: f64) -> Result<f64, CurveError> {
-    if finite(what, value)? > 0.0 { Ok(value) } else { Err(CurveError::NotPositive { what, value }) }
+    if finite(what, value)? > 0.0 { sized(what, value) } else { Err(CurveError::NotPositive { what, value }) }
+}
+
+/// A length whose square is a number, and from which a millimetre is not lost in rounding.
+fn sized(what: &'static str, value: f64) -> Result<f64, CurveError> {
+    let is_length = (1.0 / LARGEST..=LARGEST).contains(&value);
+    if is_length { Ok(value) } else { Err(CurveError::Size { what, value }) }
 }
 
 fn unit(angle: f64) -> Vector2<f64> {

@@ -45,8 +45,9 @@ impl Curve {
         best
     }
 
-    /// Where the line through `point` along `direction` meets none of `intervals`: the end of one of them, or the outermost point of the
-    /// curve on one, that the line passes most closely. Nothing without intervals.
+    /// Where the line through `point` along `direction` meets none of `intervals`: the end of one of them, the first or last point of the
+    /// curve, or its outermost point, on one of them, that the line passes most closely. Nothing without intervals. An interval that goes on
+    /// for ever has no end there: the line, which does not meet it, passes its extension most closely where that begins.
     pub(super) fn passed_most_closely(
         &self,
         point: Vector2<f64>,
@@ -56,9 +57,10 @@ impl Curve {
         let across = Vector2::new(direction.y, -direction.x) / direction.norm();
         let on_one = |at: &f64| intervals.iter().any(|(from, to)| from <= at && at <= to);
         let outermost = [across, -across].into_iter().filter_map(|axis| self.reach(axis).1).filter(on_one);
-        let ends = intervals.iter().flat_map(|(from, to)| [*from, *to]);
+        let ends = intervals.iter().flat_map(|(from, to)| [*from, *to]).filter(|at| at.is_finite());
+        let extended = [0.0, self.length].into_iter().filter(|_| self.open_start || self.open_end).filter(on_one);
         let passed = |foot: &Foot| (foot.point - point).dot(&across).abs();
-        let feet = ends.chain(outermost).map(|arc_length| self.seen_from(point, arc_length));
+        let feet = ends.chain(extended).chain(outermost).map(|arc_length| self.seen_from(point, arc_length));
         feet.min_by(|a, b| passed(a).total_cmp(&passed(b)))
     }
 

@@ -12,27 +12,44 @@ pub type Interval = (f64, f64);
 /// Parts of the segment between two arc lengths that are nearer than `reach` (m) to any of the outlines, in order and
 /// apart. Ends are exact up to rounding. The distance changes by at most the length travelled, so that one value
 /// decides a whole interval when it is far enough from `reach`; what merely touches may be missed below 1e-6 m.
+///
+/// On the extensions of an open queue `within` may be infinite: see [`Curve::window_beyond`].
 pub fn encroached(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], reach: f64) -> Vec<Interval> {
     let (curve, mut found) = (segment.curve(), Vec::new());
+    let domain = curve.domain();
+    let within = (within.0.max(domain.0), within.1.min(domain.1));
     let on_curve = (within.0.max(0.0), within.1.min(curve.length()));
     let beyond = [(within.0, within.1.min(0.0)), (within.0.max(curve.length()), within.1)];
     for outline in outlines {
         let (centre, radius) = outline.disc_around();
-        curve.tree.visit_near(segment.to_curve(centre), reach + radius, |index| {
+        let centre = segment.to_curve(centre);
+        curve.tree.visit_near(centre, reach + radius, |index| {
             let excess = |point: Vector2<f64>| outline.approach(segment.point_to_map(point)).gap - reach;
             curve.encroached_on_piece(index, on_curve, excess, &mut found);
             reach + radius
         });
-        for (from, to) in beyond {
-            // Arc lengths are parameters there.
-            let excess = |arc_length: f64| (outline.approach(segment.at(arc_length).point).gap - reach, 1.0);
-            below((from, to), excess, |from, to| found.push((from, to)));
+        for ((from, to), last) in beyond.into_iter().zip([false, true]) {
+            if from < to {
+                let window = curve.window_beyond(last, centre, reach + radius);
+                // Arc lengths are parameters there.
+                let excess = |arc_length: f64| (outline.approach(segment.at(arc_length).point).gap - reach, 1.0);
+                below((from.max(window.0), to.min(window.1)), excess, |from, to| found.push((from, to)));
+            }
         }
     }
     united(found)
 }
 
 impl Curve {
+    /// The arc lengths at which the straight line beyond the first (or `last`) point, which never ends, can be within `reach` (m) of `centre`:
+    /// it is run through at unit speed, so no more than `reach` to either side of where `centre` is abreast of it. Nothing that a disc there
+    /// touches is cut off, so that to look no farther loses nothing.
+    fn window_beyond(&self, last: bool, centre: Vector2<f64>, reach: f64) -> Interval {
+        let (end, tangent) = self.at_end(last);
+        let abreast = (centre - end).dot(&tangent) + if last { self.length } else { 0.0 };
+        (abreast - reach, abreast + reach)
+    }
+
     /// What of a piece, between two arc lengths, is where `excess` is negative.
     fn encroached_on_piece(
         &self,
@@ -70,7 +87,7 @@ fn below(whole: Interval, function: impl Fn(f64) -> (f64, f64), mut found: impl 
         }
         let negative = if value <= -change {
             Some((from, to))
-        } else if change > 0.5 * FINEST {
+        } else if change > 0.5 * FINEST && from < middle && middle < to {
             stack.extend([(middle, to), (from, middle)]);
             continue;
         } else {

@@ -31,12 +31,31 @@ pub enum CurveError {
         /// Its value.
         value: f64,
     },
+    /// A coordinate or length that no robot comes to, or whose square is no number.
+    #[error("{what} is {value:e}, but must be from 1e-12 to 1e12: write metres")]
+    Size {
+        /// Which value.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The curve bends so often that it takes too many pieces.
+    #[error(
+        "the curve bends so often that it takes more than {most} pieces (its first {arc_length:.3} m take so many): shorten it, or take fewer \
+         and longer waves",
+        most = super::piece::MOST_PIECES
+    )]
+    ManyPieces {
+        /// What those are long together, metres.
+        arc_length: f64,
+    },
     /// An arc of sweep zero or of more than one turn.
     #[error("an arc's sweep is {0} rad, but must be in [-2 pi, 2 pi] and not zero")]
     Sweep(f64),
     /// The tangent vanishes or turns at once, so the curve is not twice differentiable there.
     #[error(
-        "the curve has a cusp (a point without a tangent) after {arc_length} m: move the control points near it apart"
+        "the curve has a cusp (a point without a tangent) after {arc_length} m: move the points near it apart, or take a function that \
+         bends less there"
     )]
     Cusp {
         /// Distance along the curve, metres.
@@ -79,6 +98,30 @@ pub enum CurveError {
         first: f64,
         /// Distance along the curve of the second passage, metres.
         second: f64,
+    },
+    /// The extension of an open end meets the curve.
+    #[error(
+        "beyond its open {end} the queue goes straight on for ever, and after {beyond} m meets the curve (at {arc_length} m of its length): \
+         turn that end away, or set open_{end} to false"
+    )]
+    OpenEndMeets {
+        /// "start" or "end".
+        end: &'static str,
+        /// Distance beyond the end, metres.
+        beyond: f64,
+        /// Distance along the curve, metres.
+        arc_length: f64,
+    },
+    /// The extensions of the two open ends meet each other.
+    #[error(
+        "beyond its open ends the queue goes straight on for ever, and the two ways cross {before} m before the start and {behind} m behind \
+         the end: turn one of them away, or set open_start or open_end to false"
+    )]
+    OpenEndsMeet {
+        /// Distance beyond the start, metres.
+        before: f64,
+        /// Distance beyond the end, metres.
+        behind: f64,
     },
     /// A closed curve has no ends, so it cannot extend beyond them.
     #[error("a closed curve has no end to extend from: set open_start and open_end to false")]

@@ -10,6 +10,7 @@ mod candidates;
 mod directed;
 mod encroachment;
 mod error;
+mod extensions;
 mod graph;
 mod minimum;
 mod nearest;

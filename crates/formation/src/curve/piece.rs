@@ -5,6 +5,16 @@ use nalgebra::Vector2;
 /// Most a piece may turn, rad: within it arc length is close to linear in the parameter.
 const MOST_TURN: f64 = 0.5;
 const MOST_SPLITS: u32 = 40;
+/// Lengths of a piece and of its halves that differ by no more than this share of it agree.
+const AGREEMENT: f64 = 1e-13;
+/// Where halving no longer brings them nearer, what is left is rounding of the function, as long as it is no more than this share.
+const ROUNDING: f64 = 1e-9;
+/// Halving brings them nearer by much more than this factor, unless that is rounding.
+const NEARER: f64 = 4.0;
+/// A curve of more pieces is no segment for robots: already to build it would take minutes.
+pub(super) const MOST_PIECES: usize = 100_000;
+/// Coordinates and lengths above this (m) are no sizes, and leave no digits for millimetres.
+pub(super) const LARGEST: f64 = 1e12;
 
 /// Part of a primitive, with what is needed to bound its distance from a point.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,22 +74,35 @@ pub(super) fn cut(
     offset: f64,
     pieces: &mut Vec<Piece>,
 ) -> Result<f64, CurveError> {
-    let mut stack = vec![(from, to, 0)];
+    let mut stack = vec![(from, to, 0, f64::INFINITY)];
     let mut reached = offset;
-    while let Some((from, to, depth)) = stack.pop() {
+    while let Some((from, to, depth, known)) = stack.pop() {
         let length = arc_length(primitive, from, to);
-        if turns_little(primitive, from, to) && quadrature_converged(primitive, from, to, length) {
+        let disagreement = match turns_little(primitive, from, to) {
+            true => disagreement(primitive, from, to, length),
+            false => f64::INFINITY,
+        };
+        let is_rounding = disagreement <= ROUNDING && disagreement * NEARER >= known;
+        if disagreement <= agreement(from, to) || is_rounding {
             let sagitta = sagitta(primitive, from, to);
             let (start, end) = (primitive.evaluate(from).point, primitive.evaluate(to).point);
             let bend = Bend::of(primitive, from, to, length);
             pieces.push(Piece { primitive: index, from, to, offset: reached, length, start, end, sagitta, bend });
             reached += length;
+        } else if pieces.len() + stack.len() >= MOST_PIECES {
+            return Err(CurveError::ManyPieces { arc_length: reached });
         } else if depth == MOST_SPLITS {
-            return Err(CurveError::Cusp { arc_length: reached });
+            let (what, value) = ("the slope of the curve", primitive.evaluate(from).first.amax());
+            let too_steep = value.is_nan() || value > LARGEST;
+            return Err(if too_steep {
+                CurveError::Size { what, value }
+            } else {
+                CurveError::Cusp { arc_length: reached }
+            });
         } else {
             let middle = 0.5 * (from + to);
-            stack.push((middle, to, depth + 1));
-            stack.push((from, middle, depth + 1));
+            stack.push((middle, to, depth + 1, disagreement));
+            stack.push((from, middle, depth + 1, disagreement));
         }
     }
     Ok(reached)
@@ -93,10 +116,17 @@ fn turns_little(primitive: &Primitive, from: f64, to: f64) -> bool {
     least_speed > 0.0 && second * width <= MOST_TURN * least_speed
 }
 
-fn quadrature_converged(primitive: &Primitive, from: f64, to: f64, length: f64) -> bool {
+/// By which share of it the lengths of a piece and of its halves may differ: the more the rounding of its parameter is against its width.
+/// The speed changes over a piece by less than itself, so that a parameter which is off by a share of the width is no more for the length.
+fn agreement(from: f64, to: f64) -> f64 {
+    AGREEMENT.max(4.0 * f64::EPSILON * from.abs().max(to.abs()) / (to - from))
+}
+
+/// By which share of it the length of a piece differs from that of its halves.
+fn disagreement(primitive: &Primitive, from: f64, to: f64, length: f64) -> f64 {
     let middle = 0.5 * (from + to);
     let halves = arc_length(primitive, from, middle) + arc_length(primitive, middle, to);
-    (halves - length).abs() <= 1e-13 * length
+    (halves - length).abs() / length
 }
 
 /// Bound of the distance between a primitive over [from, to] and its chord: max|p''| h^2 / 8.

@@ -81,6 +81,11 @@ impl Primitive {
         Self::Cubic { coefficients: [p0, 3.0 * (p1 - p0), 3.0 * (p0 - 2.0 * p1 + p2), p3 - 3.0 * p2 + 3.0 * p1 - p0] }
     }
 
+    /// Whether it is the graph of a function over an axis, along which it never comes back: so it cannot meet itself.
+    pub(super) fn is_graph(&self) -> bool {
+        matches!(self, Self::Line { .. } | Self::Sinusoid { .. } | Self::Graph { .. })
+    }
+
     /// Position and derivatives at parameter `u`.
     pub(super) fn evaluate(&self, u: f64) -> Jet {
         match *self {

@@ -1,26 +1,50 @@
 //! Whether a curve meets itself.
 use super::piece::{Piece, distance_to_chord, sagitta};
+use super::primitive::Primitive;
 use super::quadrature::arc_length;
 use super::{Curve, error::CurveError};
 use nalgebra::Vector2;
 
 /// Passages nearer than this part of the curve's length count as a meeting.
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
+/// Passages that are no farther from each other along the curve than so many times that do not: between them there is no room to come back.
+const BESIDE: f64 = 4.0;
 
 /// Error if the curve meets itself or turns back on itself. A smooth piece turns by at most 0.5 rad, so neither one
 /// piece nor two neighbours without a sharp corner between them can meet themselves.
 pub(super) fn check(curve: &Curve) -> Result<(), CurveError> {
+    if let [only] = curve.primitives.as_slice()
+        && only.is_graph()
+    {
+        return Ok(());
+    }
     let last = curve.pieces.len() - 1;
     for joint in 0..=last {
         corner(curve, joint)?;
     }
     for (i, j) in curve.tree.meeting_pairs() {
         let neighbours = j == i + 1 || (curve.closed && i == 0 && j == last);
-        if !neighbours && let Some((first, second)) = meeting(curve, &curve.pieces[i], &curve.pieces[j]) {
+        let (a, b) = (&curve.pieces[i], &curve.pieces[j]);
+        let [on_a, on_b] = [a, b].map(|piece| &curve.primitives[piece.primitive]);
+        let as_graph = a.primitive == b.primitive && on_a.is_graph();
+        let counts = |first: f64, second: f64| !curve.is_beside(first, second);
+        if !neighbours
+            && !as_graph
+            && let Some((first, second)) = meeting(curve.length, (on_a, a), (on_b, b), counts)
+        {
             return Err(CurveError::SelfIntersection { first, second });
         }
     }
     Ok(())
+}
+
+impl Curve {
+    /// Whether two places are so near to each other along the curve that they need not be apart.
+    pub(super) fn is_beside(&self, first: f64, second: f64) -> bool {
+        let between = (second - first).abs();
+        let between = if self.closed { between.min(self.length - between) } else { between };
+        between <= BESIDE * TOUCH * self.length
+    }
 }
 
 /// Error if the tangent turns by nearly pi at the start of piece `joint`.
@@ -32,27 +56,35 @@ fn corner(curve: &Curve, joint: usize) -> Result<(), CurveError> {
     if before.dot(&after) < sharpest { Err(CurveError::Cusp { arc_length }) } else { Ok(()) }
 }
 
-/// Arc lengths at which two pieces meet, by halving the more curved one until chords decide.
-fn meeting(curve: &Curve, a: &Piece, b: &Piece) -> Option<(f64, f64)> {
-    let (on_a, on_b) = (&curve.primitives[a.primitive], &curve.primitives[b.primitive]);
-    let touch = TOUCH * curve.length;
+/// Arc lengths at which two pieces of a curve of this `length` (m) meet, if that counts, by halving the more curved one until chords decide.
+pub(super) fn meeting(
+    length: f64,
+    (on_a, a): (&Primitive, &Piece),
+    (on_b, b): (&Primitive, &Piece),
+    counts: impl Fn(f64, f64) -> bool,
+) -> Option<(f64, f64)> {
+    let touch = TOUCH * length;
     let mut stack = vec![((a.from, a.to), (b.from, b.to))];
     while let Some((part_a, part_b)) = stack.pop() {
         let (bulge_a, bulge_b) = (sagitta(on_a, part_a.0, part_a.1), sagitta(on_b, part_b.0, part_b.1));
-        let ends = |u: (f64, f64), primitive: &super::primitive::Primitive| {
-            (primitive.evaluate(u.0).point, primitive.evaluate(u.1).point)
-        };
+        let ends =
+            |u: (f64, f64), primitive: &Primitive| (primitive.evaluate(u.0).point, primitive.evaluate(u.1).point);
         let gap = chord_gap(ends(part_a, on_a), ends(part_b, on_b));
         if gap > bulge_a + bulge_b + touch {
             continue;
         }
         if bulge_a.max(bulge_b) <= touch {
             let (chord_a, chord_b) = (ends(part_a, on_a), ends(part_b, on_b));
-            let arc = |piece: &Piece, part: (f64, f64), fraction: f64| {
+            let arc = |(primitive, piece): (&Primitive, &Piece), part: (f64, f64), fraction: f64| {
                 let parameter = part.0 + fraction * (part.1 - part.0);
-                piece.offset + arc_length(&curve.primitives[piece.primitive], piece.from, parameter)
+                piece.offset + arc_length(primitive, piece.from, parameter)
             };
-            return Some((arc(a, part_a, crossing(chord_a, chord_b)), arc(b, part_b, crossing(chord_b, chord_a))));
+            let first = arc((on_a, a), part_a, crossing(chord_a, chord_b));
+            let second = arc((on_b, b), part_b, crossing(chord_b, chord_a));
+            if counts(first, second) {
+                return Some((first, second));
+            }
+            continue;
         }
         if bulge_a >= bulge_b {
             let middle = 0.5 * (part_a.0 + part_a.1);

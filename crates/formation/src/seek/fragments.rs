@@ -38,7 +38,7 @@ impl Fragments {
         Self { intervals: Arc::new([within]) }
     }
 
-    /// Steps (2) and (3): what is left of `within` (finite) by repulsive zones that reach `clearance` (m) beyond the outlines,
+    /// Steps (2) and (3): what is left of `within` (infinite where a queue is open) by repulsive zones that reach `clearance` (m) beyond the outlines,
     /// without pieces shorter than `room` (m). On a closed curve a fragment across the point where arc lengths begin counts as two.
     pub fn find(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], clearance: f64, room: f64) -> Self {
         Self::beside(within, &encroached(segment, within, outlines, clearance), room)
@@ -62,15 +62,16 @@ impl Fragments {
     }
 
     /// Fragments that are no more than `gap` (m) apart along the segment, from where to where, with how many robots at least find places
-    /// there, `pitch` (m) from each other: they choose one after the other, and what a robot leaves beside it may be just too short.
+    /// there, `pitch` (m) from each other: they choose one after the other, and what a robot leaves beside it may be just too short. On an
+    /// open queue there are as many places as can be counted.
     pub fn groups(&self, gap: f64, pitch: f64) -> Vec<(Interval, usize)> {
         let mut groups: Vec<(Interval, usize)> = Vec::new();
         for &(from, to) in self.intervals.iter() {
-            let places = libm::floor((to - from) / (2.0 * pitch)) as usize + 1;
+            let places = (libm::floor((to - from) / (2.0 * pitch)) as usize).saturating_add(1);
             match groups.last_mut() {
                 Some((span, sum)) if from - span.1 <= gap => {
                     span.1 = to;
-                    *sum += places;
+                    *sum = sum.saturating_add(places);
                 }
                 _ => groups.push(((from, to), places)),
             }

@@ -37,7 +37,8 @@ impl<T: Trench, D: Damping> BoundedTeam<T, D> {
 
     /// Advances by one step. `goal` moves the goal point of a robot.
     ///
-    /// The acceleration of the step's beginning is held for it; [`Integration::RungeKutta`] moves by the exact solution.
+    /// The acceleration of the step's beginning is held for it, whatever the method: limits and filter say what it is for a whole step.
+    /// Under [`Integration::RungeKutta`] the motion is that of [`Integration::Exact`], so scenario files may not ask for it.
     pub fn step(&mut self, goal: impl Fn(usize, f64) -> GoalMotion) {
         let (time, step) = (self.time(), self.step);
         self.seen.clone_from(&self.robots);

@@ -10,6 +10,7 @@ mod hyperbolic;
 mod quadratic;
 mod saturated;
 mod square_root;
+mod steepest;
 mod table;
 mod written;
 

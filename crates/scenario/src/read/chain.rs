@@ -35,7 +35,7 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
     let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
     let team_goal = point(map.node("team_goal")?)?;
     let (nodes, robots) = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
-    let tangent = (to - from).normalize();
+    let (tangent, domain) = ((to - from).normalize(), curve.domain());
     let direction = map.opt_f64("direction")?;
     let across = Vector2::new(-tangent.y, tangent.x);
     let unit = |angle: f64| Vector2::new(libm::cos(angle), libm::sin(angle));
@@ -65,7 +65,7 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
         let point = chain.attraction(*robot, index).point;
         let drift = if index == 0 { 0.0 } else { chain.law.drift_across(chain.directions[index], *robot) };
         let along = (point - from).dot(&tangent);
-        if index > 0 && !(drift..=(to - from).norm() - drift).contains(&along) {
+        if index > 0 && !(domain.0 + drift..=domain.1 - drift).contains(&along) {
             let problem = format!("has no point of attraction on the segment: its direction meets it at {along} m");
             return Err(node.error(problem, "lengthen the segment or choose another direction (6.3)"));
         }
@@ -140,7 +140,7 @@ fn buildable(map: &Map<'_>, robots: &[&Node], scenario: &ChainScenario<AnyTrench
             ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
         });
     }
-    let whole = (0.0, scenario.segment.length());
+    let whole = scenario.segment.domain();
     let placed = Placed::new(&scenario.segment, scenario.carriage.at(0.0).0);
     let combined = scenario
         .combined(&scenario.obstacles)

@@ -8,10 +8,10 @@ use trench_config::yaml::{Map, Node};
 use trench_formation::avoidance::{GoalPotential, VelocityPotential};
 use trench_formation::kinematics::{Hilare, PointState};
 use trench_formation::laws;
-use trench_formation::simulate::WaveGoals;
+use trench_formation::simulate::{Integration, WaveGoals};
 use trench_formation::trench::{AnyDamping, AnyTrench, ConstantDamping};
 
-pub(super) fn read(map: &Map<'_>) -> Result<GoalTracking, ConfigError> {
+pub(super) fn read(map: &Map<'_>, integration: Integration) -> Result<GoalTracking, ConfigError> {
     let goals = goals(&map.map("goals")?)?;
     let robot = |(index, node): (usize, &Node)| robot(node, &goals, index);
     let robots: Vec<(PointState, f64)> =
@@ -23,7 +23,31 @@ pub(super) fn read(map: &Map<'_>) -> Result<GoalTracking, ConfigError> {
             return Err(map.error("cases", format!("two cases are called {}", case.name), "rename one"));
         }
     }
+    suits_bounds(map, integration, cases.iter().filter_map(|case| case.bounds.as_ref()))?;
     Ok(GoalTracking { goals, cases, robots, headings })
+}
+
+/// Whether the method is one for robots within bounds: what these leave of an acceleration is held for a step, and the safety filter's room
+/// is that of semi-implicit steps.
+fn suits_bounds<'a>(
+    map: &Map<'_>,
+    integration: Integration,
+    mut bounds: impl Iterator<Item = &'a Bounds>,
+) -> Result<(), ConfigError> {
+    let Some(first) = bounds.next() else { return Ok(()) };
+    let bodies = first.radius.is_some() || bounds.any(|bounds| bounds.radius.is_some());
+    match (integration, bodies) {
+        (Integration::RungeKutta, _) => {
+            let problem = "does not go with `limits` and `safety`, which hold an acceleration for a step";
+            let remedy = if bodies { "write semi_implicit_euler" } else { "write semi_implicit_euler or exact" };
+            Err(map.error("method", problem, remedy))
+        }
+        (Integration::Exact, true) => {
+            let problem = "does not go with `safety`, whose room is that of semi-implicit steps";
+            Err(map.error("method", problem, "write semi_implicit_euler"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn goals(map: &Map<'_>) -> Result<WaveGoals, ConfigError> {

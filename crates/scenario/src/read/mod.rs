@@ -59,7 +59,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
             let timing = timing(&map, kind)?;
             let task = match kind {
                 Kind::Regulation => Task::Regulating(regulating::read(&map)?),
-                Kind::GoalTracking => Task::GoalTracking(goals::read(&map)?),
+                Kind::GoalTracking => Task::GoalTracking(goals::read(&map, timing.integration)?),
                 Kind::Directions => Task::Directed(Box::new(chain::directed(&map)?)),
                 _ => chain::nearest(&map, &timing)?,
             };

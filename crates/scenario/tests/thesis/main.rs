@@ -4,6 +4,7 @@
 mod bounds;
 mod fragments;
 mod hilare;
+mod open;
 mod ranks;
 mod trajectories;
 mod trenches;
