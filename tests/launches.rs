@@ -71,10 +71,11 @@ fn three_robots_rest_in_a_long_corridor() {
     let text = std::fs::read_to_string(root().join("config/formations/corridor.yaml")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("corridor.yaml");
-    std::fs::write(&file, text.replace("[3.50, 1.40]", "[2.50, 1.40]")).unwrap();
-    let finished = stands("corridor.launch.yaml", &[("formation", file.to_str().unwrap())]);
-    let rest = |track: &Track| track.poses.last().unwrap().x;
-    let places: Vec<f64> = finished.run.robots.values().map(rest).collect();
+    std::fs::write(&file, text.replace("[[3.5, 1.4]]", "[[2.5, 1.4]]")).unwrap();
+    // Formations are named beside those of the repository.
+    let formation = format!("{}{}", "../".repeat(32), file.with_extension("").strip_prefix("/").unwrap().display());
+    let finished = stands("corridor.launch.yaml", &[("formation", formation.as_str())]);
+    let places: Vec<f64> = finished.run.robots.values().map(|track| track.poses.last().unwrap().x).collect();
     assert!(places.len() == 3 && places.iter().all(|x| (1.2..2.6).contains(x)), "{places:?}");
 }
 
