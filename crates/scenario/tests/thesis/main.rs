@@ -40,7 +40,7 @@ fn run_scenario(scenario: &Scenario, times: &[f64]) -> (Summary, Vec<Vec<Sample>
             kept.push(samples.clone());
         }
     }
-    (measures.summary(scenario), kept)
+    (measures.summary(scenario, &samples), kept)
 }
 
 fn run(name: &str) -> CaseSummary {
@@ -154,7 +154,7 @@ fn lyapunov_functions_fall_along_runs() {
             simulation.sample(true, &mut samples).unwrap();
             measures.take(&file, &simulation, &samples);
         }
-        for robot in measures.summary(&file).cases.iter().flat_map(|case| &case.robots) {
+        for robot in measures.summary(&file, &samples).cases.iter().flat_map(|case| &case.robots) {
             let told = robot.lyapunov.unwrap();
             assert!(told.greatest_rate <= 1e-9, "{name}, {}: {told:?}", robot.name);
             assert!(told.last < 0.5 * told.greatest, "{name}, {}: {told:?}", robot.name);
@@ -285,4 +285,31 @@ fn methods_of_7_8_side_by_side() {
     assert!(summary.cases.iter().all(|case| least(case) > 0.1), "{summary:?}");
     // The scheme keeps the robot out of the troughs, farther from their walls than any other.
     assert!(summary.cases[1..].iter().all(|case| least(case) < least(&summary.cases[0])), "{summary:?}");
+}
+
+/// A chain tells of its steps itself: the verdict is that from samples of every step, bit for bit, and a robot looks where it last went
+/// though nobody asked in between.
+#[test]
+fn a_chain_is_judged_without_samples_as_with_them() {
+    for name in ["7.10_obstacles.yaml", "7.12.yaml", "7.14.yaml", "7.6_partial_boundaries.yaml"] {
+        let text = fs::read_to_string(folder().join(name)).unwrap();
+        let scenario = parse(name, &text.replace("duration: 200.0", "duration: 60.0")).unwrap();
+        let steps = (scenario.timing.duration / scenario.timing.step).round() as u64;
+        let mut simulations = [(); 2].map(|()| Simulation::new(&scenario).unwrap());
+        let (mut asked, mut sampled) = (Vec::new(), Vec::new());
+        let (mut measures, mut slowly) = (Measures::new(&scenario), Measures::new(&scenario));
+        assert!(simulations.iter().all(Simulation::tells_itself));
+        for step in 0..=steps {
+            if step > 0 {
+                simulations.iter_mut().for_each(|simulation| simulation.step().unwrap());
+            }
+            measures.take(&scenario, &simulations[0], &[]);
+            simulations[1].sample(false, &mut sampled).unwrap();
+            slowly.take_samples(&scenario, &simulations[1], &sampled);
+        }
+        simulations[0].sample(false, &mut asked).unwrap();
+        assert_eq!(format!("{asked:?}"), format!("{sampled:?}"), "{name}");
+        let [told, expected] = [&measures, &slowly].map(|measures| measures.summary(&scenario, &asked));
+        assert_eq!(format!("{told:?}"), format!("{expected:?}"), "{name}");
+    }
 }
