@@ -247,7 +247,8 @@ fn enclosed_by_moving_obstacles() {
     }
     assert!(enclosed > 1000, "{enclosed} ms");
     let case = run("7.14.yaml");
-    assert!(case.conforms_after.is_some_and(|time| time < 50.0), "{case:?}");
+    assert_near(case.conforms_after, &[48.80], 0.05);
+    assert!(scenario.timing.duration > 60.0, "what the time is for good is seen for a while");
     assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.9), "{case:?}");
 }
 
@@ -259,8 +260,10 @@ fn partial_boundaries_of_7_6() {
     let (known, apparent) = simulation.known_obstacles().unwrap();
     assert!(known.is_empty() && apparent.is_empty(), "nobody has seen anything");
     let case = run("7.6_partial_boundaries.yaml");
-    assert!(case.conforms_after.is_some(), "{case:?}");
-    assert!(case.obstacles.len() == 6 && case.obstacles.iter().all(|obstacle| obstacle.least_gap > 0.7), "{case:?}");
+    assert_near(case.conforms_after, &[98.64], 0.05);
+    let least = case.obstacles.iter().map(|obstacle| obstacle.least_gap).fold(f64::INFINITY, f64::min);
+    assert_near([least], &[0.80], 0.005);
+    assert_eq!(case.obstacles.len(), 6);
     assert!(case.in_zone_1 == 0.0 && case.closest_pair.is_some_and(|apart| apart > 1.5), "{case:?}");
 }
 
