@@ -70,6 +70,28 @@ fn every_file_reads() {
     assert!(count > 20);
 }
 
+/// Sections 4.2 to 4.4, 4.6, 5.6, 6.5, 7.6 to 7.8 and 7.10 but for photographs, noise of the camera (4.23 to 4.31) and block diagrams (6.5, 7.17).
+#[test]
+fn every_figure_of_a_simulation_has_a_picture() {
+    let files = fs::read_dir(folder()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut drawn: Vec<(u32, u32)> = Vec::new();
+    for figure in files.flat_map(|name| scenario(&name).figures) {
+        let number = figure.number.split(" (").next().unwrap();
+        let parts = number.split(" to ").filter_map(|end| end.split_once('.'));
+        let ends: Vec<(u32, u32)> =
+            parts.filter_map(|(chapter, rest)| Some((chapter.parse().ok()?, rest.parse().ok()?))).collect();
+        if let (Some(&(chapter, first)), Some(&(_, last))) = (ends.first(), ends.last()) {
+            drawn.extend((first..=last).map(|number| (chapter, number)));
+        }
+    }
+    for (chapter, range) in [(4, 1..=22), (4, 32..=42), (5, 2..=15), (6, 4..=4), (6, 6..=9), (7, 11..=16), (7, 18..=22)]
+    {
+        for number in range {
+            assert!(drawn.contains(&(chapter, number)), "nothing draws {chapter}.{number}");
+        }
+    }
+}
+
 #[test]
 fn table_4_1() {
     let (summary, _) = run_with("4.4.4.yaml", &[]);
