@@ -48,7 +48,11 @@ fn labels(figure: &Figure, scenario: &Scenario) -> Vec<String> {
     }
     let needs_no_run = matches!(
         figure.drawing,
-        Drawing::SineIntegrals | Drawing::CurvatureTrends(_) | Drawing::Solutions { .. } | Drawing::StableWedge { .. }
+        Drawing::SineIntegrals
+            | Drawing::CurvatureTrends(_)
+            | Drawing::Solutions { .. }
+            | Drawing::StableWedge { .. }
+            | Drawing::WedgeInSpace
     );
     if needs_no_run || figure.drawing == Drawing::Speeds {
         return Vec::new();
@@ -86,10 +90,8 @@ fn check_figures(file: &Path, folder: &Path) {
         let [svg, png] = ["svg", "png"].map(|kind| folder.join(format!("{name}.{kind}")));
         assert!(pictures.contains(&svg) && pictures.contains(&png), "{file:?}: {name} is not among {pictures:?}");
         let told = texts(&svg);
-        if figure.drawing != Drawing::Speeds || matches!(scenario.task, Task::Launch(_)) {
-            let title = format!("Figure {}: {}", figure.number, figure.title);
-            assert!(told.contains(&title), "{file:?}: {name} has no title {title:?}: {told}");
-        }
+        let title = format!("Figure {}: {}", figure.number, figure.title);
+        assert!(told.contains(&title), "{file:?}: {name} has no title {title:?}: {told}");
         for label in labels(figure, &scenario) {
             assert!(told.lines().any(|line| line == label), "{file:?}: {name} does not tell of {label}: {told}");
         }
@@ -129,6 +131,30 @@ fn every_scenario_file_draws_its_figures() {
         count += 1;
     }
     assert!(count > 30, "{count}");
+}
+
+/// What the thesis draws in them besides curves.
+#[test]
+fn signs_are_those_of_the_thesis() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn_of = |name: &str| {
+        let file = shortened(&root().join("config/scenarios").join(name), folder.path());
+        plotted(&file, &folder.path().join("out"), &["--format", "svg"]);
+    };
+    let svg = |number: &str| folder.path().join(format!("out/figure-{number}.svg"));
+    drawn_of("4.4.4.yaml");
+    let space = texts(&svg("4.8"));
+    assert!(["K1", "K2", "K3", "K3 = K1"].iter().all(|text| space.lines().any(|line| line == *text)), "{space}");
+    drawn_of("7.10.yaml");
+    // The fastest of Table 6.1 has 1.01 m/s on a map of 114 m.
+    let speeds = texts(&svg("7.16"));
+    assert!(speeds.contains("→ its velocity: the way of 10 s"), "{speeds}");
+    drawn_of("7.10_obstacles.yaml");
+    let obstacles = texts(&svg("7.21"));
+    assert!(
+        obstacles.contains("thin: the pole of their repulsion") && obstacles.contains("rho_hat = 2"),
+        "{obstacles}"
+    );
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn of_launch(figure: &Figure, run: &Run) -> style::Picture {
         Drawing::Speeds => speeds::draw(run, span),
         _ => Err("runs of launch files have trajectories, errors, snapshots and speeds alone".to_owned()),
     };
-    style::titled(&format!("Figure {}: {}", figure.number, figure.title), &picture?)
+    style::titled(&figures::title(figure), &picture?)
 }
 
 fn save(

@@ -1,6 +1,5 @@
 //! How near the robots of a team come to each other, without looking at all pairs.
 
-use crate::Sample;
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::Neighbours;
 use trench_formation::zoning::{Zone, Zoning};
@@ -15,7 +14,6 @@ const TOO_WIDE: f64 = 4.0;
 #[derive(Debug, Clone)]
 pub(crate) struct Closest {
     neighbours: Neighbours,
-    robots: Vec<PointState>,
     /// Up to where neighbours are sought, m.
     range: f64,
     /// m; infinite before two robots were seen.
@@ -24,7 +22,7 @@ pub(crate) struct Closest {
 
 impl Default for Closest {
     fn default() -> Self {
-        Self { neighbours: Neighbours::default(), robots: Vec::new(), range: 0.0, least: f64::INFINITY }
+        Self { neighbours: Neighbours::default(), range: 0.0, least: f64::INFINITY }
     }
 }
 
@@ -35,10 +33,11 @@ impl Closest {
     }
 
     /// Looks at the robots of a team; calls `forbidden` for each pair in zone 1.
-    pub(crate) fn take(&mut self, team: &[Sample], zoning: Option<&Zoning>, mut forbidden: impl FnMut()) {
-        // No pair beyond the nearest of some, nor beyond zone 1, says anything new.
-        let some = team.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
-        let needed = some.fold(self.least, f64::min).max(zoning.map_or(0.0, |zoning| zoning.radii().rho_underbar));
+    pub(crate) fn take(&mut self, team: &[PointState], zoning: Option<&Zoning>, mut forbidden: impl FnMut()) {
+        // No pair beyond the nearest so far, or of some, nor beyond zone 1, says anything new.
+        let some = || team.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
+        let nearest = if self.least.is_finite() { self.least } else { some().fold(self.least, f64::min) };
+        let needed = nearest.max(zoning.map_or(0.0, |zoning| zoning.radii().rho_underbar));
         if !needed.is_finite() {
             return;
         }
@@ -50,12 +49,10 @@ impl Closest {
         if !(needed..=TOO_WIDE * needed).contains(&self.range) {
             self.range = WIDER * needed;
         }
-        self.robots.clear();
-        self.robots.extend(team.iter().map(|sample| PointState::at_rest(sample.position)));
-        self.neighbours.update(self.range, &self.robots, &[]);
-        for (index, sample) in team.iter().enumerate() {
+        self.neighbours.update(self.range, team, &[]);
+        for (index, robot) in team.iter().enumerate() {
             for &mate in self.neighbours.of(index).iter().take_while(|mate| (**mate as usize) < index) {
-                let distance = (team[mate as usize].position - sample.position).norm();
+                let distance = (team[mate as usize].position - robot.position).norm();
                 self.least = self.least.min(distance);
                 if zoning.is_some_and(|zoning| zoning.zone(distance) == Zone::Forbidden) {
                     forbidden();
@@ -71,20 +68,8 @@ mod tests {
     use proptest::prelude::*;
     use trench_formation::Vector2;
 
-    fn at(x: f64, y: f64) -> Sample {
-        Sample {
-            position: Vector2::new(x, y),
-            velocity: Vector2::zeros(),
-            acceleration: Vector2::zeros(),
-            heading: 0.0,
-            speed: 0.0,
-            turn_rate: 0.0,
-            goal: None,
-            deviation: 0.0,
-            misalignment: 0.0,
-            effort: 0.0,
-            lyapunov: None,
-        }
+    fn at(x: f64, y: f64) -> PointState {
+        PointState::at_rest(Vector2::new(x, y))
     }
 
     proptest! {
@@ -96,7 +81,7 @@ mod tests {
             zoned in any::<bool>(),
         ) {
             let zoning = zoned.then(zoning);
-            let mut team: Vec<Sample> = starts.iter().map(|(x, y)| at(*x, *y)).collect();
+            let mut team: Vec<PointState> = starts.iter().map(|(x, y)| at(*x, *y)).collect();
             let (mut closest, mut seconds) = (Closest::default(), 0);
             let (mut least, mut expected) = (f64::INFINITY, 0);
             for step in 0..12 {

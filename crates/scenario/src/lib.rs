@@ -4,19 +4,23 @@
 //! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
 
 mod closest;
+mod gaps;
 mod launch;
 mod law;
 mod measures;
 mod read;
+mod robots;
 mod scenario;
 mod simulation;
+mod summary;
 
 pub use launch::{Argument, Launch};
 pub use law::{ChosenLaw, GoalLaw};
-pub use measures::{CaseSummary, LyapunovSummary, Measures, ObstacleSummary, RobotSummary, Summary};
+pub use measures::Measures;
 pub use read::{is_scenario, parse};
 pub use scenario::{
     Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Regulating, RegulatingCase,
     Scenario, Seat, Start, Task, Timing,
 };
 pub use simulation::{RunError, Sample, Simulation};
+pub use summary::{CaseSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary};

@@ -204,6 +204,8 @@ pub enum Drawing {
         /// K2 up to which it is drawn, 1/s; negative for the other half of the plane.
         most: f64,
     },
+    /// The same among K1, K2 and K3 themselves, which needs no run.
+    WedgeInSpace,
 }
 
 /// A robot's place in a scenario.

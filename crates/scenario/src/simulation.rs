@@ -78,6 +78,8 @@ pub struct Simulation {
     names: Vec<String>,
     /// Last heading of each robot, for those that stand.
     headings: Vec<f64>,
+    /// The velocities with which the robots of a chain of chapter 7 last moved, m/s: their headings, not yet asked for.
+    moved: Vec<Vector2<f64>>,
     step: f64,
     steps: u64,
 }
@@ -127,7 +129,13 @@ impl Simulation {
         };
         let names: Vec<String> = scenario.seats().into_iter().map(|seat| seat.name).collect();
         let headings = vec![0.0; names.len()];
-        Ok(Self { running, names, headings, step: timing.step, steps: 0 })
+        let moved = match &running {
+            Running::Nearest(chain, _) => vec![Vector2::zeros(); chain.robots().len()],
+            _ => Vec::new(),
+        };
+        let mut simulation = Self { running, names, headings, moved, step: timing.step, steps: 0 };
+        simulation.follow()?;
+        Ok(simulation)
     }
 
     /// Lets others do the work of the robots of a chain of chapter 7, see [`ChainSimulation::with`]. The motion is the same, bit for bit.
@@ -164,7 +172,40 @@ impl Simulation {
             }
         }
         self.steps += 1;
+        self.follow()
+    }
+
+    /// Looks at the robots of a chain of chapter 7 after every step, whether or not somebody asks for samples.
+    fn follow(&mut self) -> Result<(), RunError> {
+        let Running::Nearest(chain, _) = &self.running else { return Ok(()) };
+        for (index, (robot, moved)) in chain.robots().iter().zip(&mut self.moved).enumerate() {
+            let PointState { position, velocity } = *robot;
+            if !(position.x + position.y + velocity.x + velocity.y).is_finite() {
+                return Err(self.diverged(index));
+            }
+            if velocity.norm() > STANDS {
+                *moved = velocity;
+            }
+        }
         Ok(())
+    }
+
+    fn diverged(&self, index: usize) -> RunError {
+        RunError::Diverged { time: self.time(), robot: self.names.get(index).cloned().unwrap_or_default() }
+    }
+
+    /// Whether [`Measures::take`](crate::Measures::take) needs no samples: a chain of chapter 7, and nothing beside it, tells of its steps itself.
+    #[must_use]
+    pub fn tells_itself(&self) -> bool {
+        self.alone().is_some()
+    }
+
+    /// The chain of chapter 7 that is all there is.
+    pub(crate) fn alone(&self) -> Option<&ChainSimulation<AnyTrench>> {
+        match &self.running {
+            Running::Nearest(chain, trips) if trips.is_empty() => Some(chain),
+            _ => None,
+        }
     }
 
     /// Seconds simulated.
@@ -223,9 +264,12 @@ impl Simulation {
                 }));
             }
         }
-        for ((sample, heading), name) in samples.iter_mut().zip(&mut self.headings).zip(&self.names) {
+        for (heading, moved) in self.headings.iter_mut().zip(&self.moved) {
+            *heading = libm::atan2(moved.y, moved.x);
+        }
+        for (index, (sample, heading)) in samples.iter_mut().zip(&mut self.headings).enumerate() {
             if !(sample.position.x + sample.position.y + sample.velocity.x + sample.velocity.y).is_finite() {
-                return Err(RunError::Diverged { time: self.steps as f64 * self.step, robot: name.clone() });
+                return Err(self.diverged(index));
             }
             // A point without velocity looks where it last went.
             if sample.heading.is_nan() {

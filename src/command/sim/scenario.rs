@@ -47,7 +47,9 @@ pub(crate) fn run(scenario: &Scenario, text: &str, manner: Manner<'_>) -> Result
             simulation.step()?;
         }
         let is_recorded = step % timing.record_every == 0 || step == steps;
-        simulation.sample(is_recorded, &mut samples)?;
+        if is_recorded || !simulation.tells_itself() {
+            simulation.sample(is_recorded, &mut samples)?;
+        }
         measures.take(scenario, &simulation, &samples);
         if is_recorded {
             publisher.publish(&simulation, &samples, &mut sink);
@@ -57,9 +59,9 @@ pub(crate) fn run(scenario: &Scenario, text: &str, manner: Manner<'_>) -> Result
     let took = began.elapsed().as_secs_f64();
     line.clear();
     if progress {
-        eprintln!("{:.1} s simulated in {took:.2} s: {:.0} times real time", timing.duration, timing.duration / took);
+        eprintln!("{:.1} s simulated in {took:.3} s: {:.0} times real time", timing.duration, timing.duration / took);
     }
-    Ok(Done { run: sink.finish()?, summary: measures.summary(scenario) })
+    Ok(Done { run: sink.finish()?, summary: measures.summary(scenario, &samples) })
 }
 
 /// Says how it went, and what nobody could have made go well.

@@ -107,6 +107,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let starts = scenario.robots.iter().map(|robot| robot.position);
         output.rows(&format!("starts_{count}.txt"), rows(&mut starts.clone()))?;
+        // What a scenario file of the same needs besides.
+        output.rows(&format!("goal_{count}.txt"), rows(&mut scenario.team_goal.into_iter()))?;
+        let discs = scenario.obstacles.iter().map(|disc| disc.shape.outline().points[0]);
+        output.rows(&format!("discs_{count}.txt"), rows(&mut discs.into_iter()))?;
         let mut nearest = starts.map(|start| scenario.segment.nearest(start).point);
         output.rows(&format!("ends_{count}.txt"), rows(&mut nearest))?;
         let moved = measure(&mut output, &scenario, 1)?;

@@ -66,6 +66,11 @@ impl ObstaclePotential {
         self.barrier.cap()
     }
 
+    /// Gap at the pole, m: 0 where that is the outline itself.
+    pub fn pole(&self) -> f64 {
+        self.pole
+    }
+
     /// Gap at which the repulsion begins, m: the clearance that encroaches on segments.
     #[inline]
     pub fn cut(&self) -> f64 {

@@ -5,7 +5,7 @@ use trench_config::yaml::Node;
 use trench_config::{ConfigError, did_you_mean};
 use trench_formation::stability::{C1, C2, TwoGainLaw};
 
-const DRAWINGS: [(&str, Drawing); 15] = [
+const DRAWINGS: [(&str, Drawing); 16] = [
     ("trajectories", Drawing::Trajectories),
     ("snapshots", Drawing::Snapshots),
     ("errors", Drawing::Errors),
@@ -21,6 +21,7 @@ const DRAWINGS: [(&str, Drawing); 15] = [
     ("solutions_below", Drawing::Solutions { critical: C2 }),
     ("stable_wedge", Drawing::StableWedge { most: 2.0 }),
     ("negative_wedge", Drawing::StableWedge { most: -2.0 }),
+    ("stable_wedge_in_space", Drawing::WedgeInSpace),
 ];
 
 pub(super) fn read(nodes: &[Node], scenario: &Scenario) -> Result<Vec<Figure>, ConfigError> {

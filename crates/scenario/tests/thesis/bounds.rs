@@ -89,5 +89,5 @@ fn hardest(scenario: &Scenario) -> ([f64; 2], Summary) {
         before.clone_from(&samples);
         simulation.step().unwrap();
     }
-    (hardest, measures.summary(scenario))
+    (hardest, measures.summary(scenario, &samples))
 }

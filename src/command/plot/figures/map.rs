@@ -2,17 +2,18 @@
 
 use super::super::axes::short;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::arrow::arrow;
 use super::clip::clip;
+use super::obstacles;
 use super::select::{Selection, Shown};
-use crate::command::rounded::rounded;
 use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use trench_formation::Vector2;
-use trench_formation::hull::{Obstacle, Outline};
 use trench_scenario::{Scenario, Task};
 
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+/// A chart in the map, m.
+pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [58 * UNIT, 42 * UNIT];
@@ -20,7 +21,6 @@ const MARGIN: u32 = 12 * UNIT;
 /// The square at the end of a path, about it, and a robot's name, from it, units.
 const END: [(i32, i32); 2] = [(-3 * UNIT as i32, -3 * UNIT as i32), (3 * UNIT as i32, 3 * UNIT as i32)];
 const NAME: (i32, i32) = (3 * UNIT as i32, -14 * UNIT as i32);
-const OBSTACLE: RGBColor = RGBColor(150, 60, 40);
 
 /// The part of the map that is shown.
 #[derive(Clone, Copy)]
@@ -39,9 +39,7 @@ impl Field {
         if scenario.zoning().is_some() && selection.robots.len() > 1 {
             points.extend(segment(scenario));
         }
-        for outline in outlines(scenario) {
-            points.extend(outline.into_iter().flatten());
-        }
+        points.extend(obstacles::extent(scenario));
         let bounds = |values: &mut dyn Iterator<Item = f64>| {
             values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)))
         };
@@ -67,15 +65,20 @@ impl Field {
         (plot_width * (top - bottom) / (right - left)).round() as u32 + LABELS[1] + 2 * MARGIN
     }
 
-    /// Draws everything until `until`; robots where they are then, if `bodies`.
+    /// How wide it is, m.
+    pub(super) fn width(self) -> f64 {
+        self.0[1] - self.0[0]
+    }
+
+    /// Draws everything until `until` (s); with `arrows` robots where they are then, and the way of so many seconds at their velocities.
     pub(super) fn draw(
         self,
         area: &Area<'_>,
         scenario: &Scenario,
         selection: &Selection<'_>,
-        (until, bodies): (f64, bool),
+        (until, arrows): (f64, Option<f64>),
     ) -> Result<(), String> {
-        let window @ [left, right, bottom, top] = self.0;
+        let (window @ [left, right, bottom, top], bodies) = (self.0, arrows.is_some());
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
             .y_label_area_size(LABELS[0])
@@ -91,7 +94,7 @@ impl Field {
             let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));
             chart.draw_series(dashes).map_err(text)?;
         }
-        self.obstacles(&mut chart, scenario, until)?;
+        obstacles::draw(&mut chart, scenario, window, until)?;
         // Those named first are drawn last: where paths are the same, they are seen.
         for robot in selection.robots.iter().rev() {
             if matches!(scenario.task, Task::GoalTracking(_)) && !bodies {
@@ -124,54 +127,19 @@ impl Field {
                 let beside =
                     |name: &String| EmptyElement::at((pose.x, pose.y)) + Text::new(name.clone(), NAME, font(9));
                 chart.draw_series(robot.name.as_ref().map(beside)).map_err(text)?;
-                let reach = 0.03 * (right - left);
-                let tip = (pose.x + reach * pose.theta.cos(), pose.y + reach * pose.theta.sin());
-                let moves = pose.v.abs() > 1e-3;
-                chart
-                    .draw_series(moves.then(|| PathElement::new([(pose.x, pose.y), tip], line(BLACK.mix(0.8), 1))))
-                    .map_err(text)?;
+            }
+            for part in
+                arrows.into_iter().flat_map(|long| arrow((pose.x, pose.y), (pose.v, pose.theta), long, self.width()))
+            {
+                for part in clip(&part, window) {
+                    chart.draw_series([PathElement::new(part, line(BLACK.mix(0.8), 1))]).map_err(text)?;
+                }
             }
             let goal = robot.track.goal_at(at).map(|[x, y]| (x, y)).filter(inside);
             let goal = goal.filter(|_| bodies && matches!(scenario.task, Task::GoalTracking(_)));
             chart.draw_series(goal.map(|goal| Circle::new(goal, 5 * UNIT, line(robot.colour, 1)))).map_err(text)?;
         }
         chart.draw_series([Rectangle::new([(left, bottom), (right, top)], line(BLACK.mix(0.4), 1))]).map_err(text)?;
-        Ok(())
-    }
-
-    /// Obstacles where they are at `time` (s), where their repulsion begins dashed, combined hulls outlined.
-    fn obstacles(self, chart: &mut Chart<'_, '_>, scenario: &Scenario, time: f64) -> Result<(), String> {
-        let Task::Nearest(chain, _) = &scenario.task else { return Ok(()) };
-        let velocities = chain.options.obstacle_velocities.iter().copied().chain(std::iter::repeat(Vector2::zeros()));
-        let moved = |(obstacle, velocity): (&Obstacle, Vector2<f64>)| {
-            Ok(Obstacle { id: obstacle.id, shape: obstacle.shape.moved(time * velocity).map_err(text)? })
-        };
-        let obstacles: Vec<Obstacle> =
-            chain.obstacles.iter().zip(velocities).map(moved).collect::<Result<_, String>>()?;
-        let mut outline = |outline: &Outline<'_>, grown: f64, is_dashed: bool| {
-            let boundary: Vec<(f64, f64)> =
-                rounded(outline.points, outline.radius + grown).into_iter().map(|point| (point.x, point.y)).collect();
-            for part in clip(&boundary, self.0) {
-                let drawn = if is_dashed {
-                    chart
-                        .draw_series(DashedLineSeries::new(part, 3 * UNIT, 3 * UNIT, line(OBSTACLE.mix(0.6), 1)))
-                        .map(drop)
-                } else {
-                    chart.draw_series(LineSeries::new(part, line(OBSTACLE, 2))).map(drop)
-                };
-                drawn.map_err(text)?;
-            }
-            Ok::<_, String>(())
-        };
-        for obstacle in &obstacles {
-            outline(&obstacle.shape.outline(), 0.0, false)?;
-        }
-        for apparent in chain.combined(&obstacles).map_err(text)? {
-            outline(&apparent.shape.outline(), chain.potential.cut(), true)?;
-            if apparent.members.len() > 1 {
-                outline(&apparent.shape.outline(), 0.0, true)?;
-            }
-        }
         Ok(())
     }
 }
@@ -206,14 +174,4 @@ fn segment(scenario: &Scenario) -> Vec<(f64, f64)> {
         _ => Vec::new(),
     };
     points.into_iter().map(|point| (point.x, point.y)).collect()
-}
-
-/// Boundaries of the obstacles with their repulsive zones.
-fn outlines(scenario: &Scenario) -> Vec<Vec<Vec<(f64, f64)>>> {
-    let Task::Nearest(chain, _) = &scenario.task else { return Vec::new() };
-    let outline = |outline: Outline<'_>| {
-        let boundary = rounded(outline.points, outline.radius + chain.potential.cut());
-        vec![boundary.into_iter().map(|point| (point.x, point.y)).collect()]
-    };
-    chain.obstacles.iter().map(|obstacle| outline(obstacle.shape.outline())).collect()
 }

@@ -1,12 +1,15 @@
 //! The figures that a scenario file asks for, from its run.
 
+mod arrow;
 mod chapter4;
 mod clip;
 mod diagram;
 mod map;
+mod obstacles;
 mod select;
+mod wedge;
 
-use super::style::{Area, LEGEND, Picture, REFERENCE, UNIT, centred, font, line, picture, text};
+use super::style::{Area, LEGEND, Picture, REFERENCE, UNIT, centred, font, line, picture, text, titled};
 use diagram::Diagram;
 use map::Field;
 use plotters::prelude::*;
@@ -18,6 +21,8 @@ use trench_scenario::{Drawing, Figure, Scenario, Task};
 
 const WIDTH: u32 = 820 * UNIT;
 const TITLE: i32 = 34 * UNIT as i32;
+/// A line of notes.
+const NOTE: i32 = 24 * UNIT as i32;
 const SMALL: u32 = 500 * UNIT;
 
 /// Draws one figure.
@@ -28,12 +33,12 @@ pub(super) fn draw(figure: &Figure, scenario: &Scenario, run: &Run) -> Picture {
         Drawing::Trajectories => {
             let until = figure.at.last().copied().unwrap_or(end);
             let field = Field::of(figure.window, scenario, &selection, until);
-            framed(figure, (&selection.legend, field_notes(scenario, false)), field.height(WIDTH), |area| {
-                field.draw(area, scenario, &selection, (until, false))
+            framed(figure, (&selection.legend, &field_notes(scenario, None)), field.height(WIDTH), |area| {
+                field.draw(area, scenario, &selection, (until, None))
             })
         }
         Drawing::Snapshots => snapshots(figure, scenario, &selection, end),
-        Drawing::Speeds => super::speeds::draw(run, (0.0, end)),
+        Drawing::Speeds => titled(&title(figure), &super::speeds::draw(run, (0.0, end))?),
         Drawing::Errors => over_time(figure, &selection, "distance (m)", &[], goal_distance),
         Drawing::Misalignments => over_time(figure, &selection, "phi (rad)", &[], misalignment),
         Drawing::Lyapunov => over_time(figure, &selection, "V", &[], |robot| robot.track.lyapunov.clone()),
@@ -53,10 +58,16 @@ pub(super) fn draw(figure: &Figure, scenario: &Scenario, run: &Run) -> Picture {
         Drawing::CurvatureTrends(law) => chapter4::curvature_trends(figure, law),
         Drawing::Solutions { critical } => chapter4::solutions(figure, critical),
         Drawing::StableWedge { most } => chapter4::wedge(figure, most),
+        Drawing::WedgeInSpace => wedge::draw(figure),
     }
 }
 
-/// A picture with title and legend above what `draw` draws.
+/// Number and title, as the thesis numbers it.
+pub(super) fn title(figure: &Figure) -> String {
+    format!("Figure {}: {}", figure.number, figure.title)
+}
+
+/// A picture with title, legend and lines of notes above what `draw` draws.
 fn framed(
     figure: &Figure,
     (legend, notes): (&[(String, RGBColor)], &str),
@@ -65,12 +76,11 @@ fn framed(
 ) -> Picture {
     const SCALE: i32 = UNIT as i32;
     let rows = rows(legend);
-    let noted = i32::from(!notes.is_empty());
-    let top = TITLE + LEGEND * (rows.len() as i32 + noted);
+    let above = TITLE + LEGEND * rows.len() as i32;
+    let top = above + NOTE * notes.lines().count() as i32;
     picture((WIDTH, height + top as u32), |area| {
         let (head, body) = area.split_vertically(top);
-        let title = format!("Figure {}: {}", figure.number, figure.title);
-        head.draw(&Text::new(title, (WIDTH as i32 / 2, TITLE / 2), centred(15))).map_err(text)?;
+        head.draw(&Text::new(title(figure), (WIDTH as i32 / 2, TITLE / 2), centred(15))).map_err(text)?;
         for (row, entries) in rows.iter().enumerate() {
             let middle = TITLE + LEGEND * row as i32 + LEGEND / 2;
             let style = font(13).pos(Pos::new(HPos::Left, VPos::Center));
@@ -83,26 +93,24 @@ fn framed(
             }
         }
         let style = font(12).color(&REFERENCE).pos(Pos::new(HPos::Left, VPos::Center));
-        head.draw(&Text::new(notes.to_owned(), (24 * SCALE, top - LEGEND / 2), style)).map_err(text)?;
+        for (row, note) in notes.lines().enumerate() {
+            let middle = above + NOTE * row as i32 + NOTE / 2;
+            head.draw(&Text::new(note.to_owned(), (24 * SCALE, middle), style.clone())).map_err(text)?;
+        }
         draw(&body)
     })
 }
 
-/// What signs on maps mean: those alone that this scenario has.
-fn field_notes(scenario: &Scenario, bodies: bool) -> &'static str {
-    match (&scenario.task, bodies) {
-        (Task::Regulating(_), _) => "● start,  ■ end,  × goal",
-        (Task::GoalTracking(_), true) => "● robot with its heading,  ○ its goal point",
-        (Task::GoalTracking(_), false) => "● start,  ■ end;  grey: path of the goal point",
-        (Task::Nearest(chain, _), true) if !chain.obstacles.is_empty() => {
-            "● robot,  - - - segment,  × goal of r1;  brown: obstacles, dashed where repulsion begins and around combined hulls"
-        }
-        (Task::Nearest(chain, _), false) if !chain.obstacles.is_empty() => {
-            "● start,  ■ end,  - - - segment,  × goal;  brown: obstacles, dashed where repulsion begins and around combined hulls"
-        }
-        (_, true) => "● robot with its heading,  - - - segment,  × goal of r1",
-        (_, false) => "● start,  ■ end,  - - - segment,  × goal of r1",
-    }
+/// What signs on maps mean: those alone that this scenario has. Robots have arrows as long as their way of so many seconds, or none.
+fn field_notes(scenario: &Scenario, arrows: Option<f64>) -> String {
+    let robot = arrows.map(|seconds| format!("● robot,  → its velocity: the way of {} s", super::axes::short(seconds)));
+    let signs = match (&scenario.task, robot) {
+        (Task::Regulating(_), _) => "● start,  ■ end,  × goal".to_owned(),
+        (Task::GoalTracking(_), Some(robot)) => format!("{robot},  ○ its goal point"),
+        (Task::GoalTracking(_), None) => "● start,  ■ end;  grey: path of the goal point".to_owned(),
+        (_, robot) => format!("{},  - - - segment,  × goal of r1", robot.unwrap_or("● start,  ■ end".to_owned())),
+    };
+    [signs, obstacles::notes(scenario)].join("\n")
 }
 
 /// What one entry of a legend takes, units.
@@ -124,13 +132,14 @@ fn snapshots(figure: &Figure, scenario: &Scenario, selection: &Selection<'_>, en
     let columns = if times.len() > 1 { 2 } else { 1 };
     let rows = times.len().div_ceil(columns);
     let cell = field.height(WIDTH / columns as u32) + TITLE as u32;
-    framed(figure, (&selection.legend, field_notes(scenario, true)), cell * rows as u32, |area| {
+    let arrows = Some(arrow::seconds(selection, &times, field.width()));
+    framed(figure, (&selection.legend, &field_notes(scenario, arrows)), cell * rows as u32, |area| {
         for (cell, &time) in area.split_evenly((rows, columns)).iter().zip(&times) {
             let (title, map) = cell.split_vertically(TITLE);
             let middle = (WIDTH / columns as u32) as i32 / 2;
             let name = format!("t = {} s", super::axes::short(time));
             title.draw(&Text::new(name, (middle, TITLE / 2), centred(14))).map_err(text)?;
-            field.draw(&map, scenario, selection, (time, true))?;
+            field.draw(&map, scenario, selection, (time, arrows))?;
         }
         Ok(())
     })
