@@ -75,7 +75,13 @@ fn infeasible_teams_are_said_to_be() {
     };
     let away = "{position: [-500.0, 529.7]";
     check("6.5.yaml", "{position: [26.0026, 29.7094]", away, "connection", "connection: r2 begins");
-    check("7.10.yaml", "[100.0, 100.0]]", "[5.0, 5.0]]", "room", "4 places, 4 m from each other, but there are 10 robots");
+    check(
+        "7.10.yaml",
+        "[100.0, 100.0]]",
+        "[5.0, 5.0]]",
+        "room",
+        "4 places, 4 m from each other, but there are 10 robots",
+    );
     let fine = trench(&["sim", "config/scenarios/7.12.yaml", "--quiet", "--json"]);
     assert!(fine.stderr.is_empty() && String::from_utf8(fine.stdout).unwrap().contains("\"infeasible\": []"));
 }

@@ -13,7 +13,7 @@ pub type Interval = (f64, f64);
 /// apart. Ends are exact up to rounding. The distance changes by at most the length travelled, so that one value
 /// decides a whole interval when it is far enough from `reach`; what merely touches may be missed below 1e-6 m.
 ///
-/// On the extensions of an open queue `within` may be infinite: see [`Curve::window_beyond`].
+/// On the extensions of an open queue `within` may be infinite: see `Curve::window_beyond`.
 pub fn encroached(segment: &Placed<'_>, within: Interval, outlines: &[Outline<'_>], reach: f64) -> Vec<Interval> {
     let (curve, mut found) = (segment.curve(), Vec::new());
     let domain = curve.domain();

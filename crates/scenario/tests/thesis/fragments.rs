@@ -30,7 +30,7 @@ fn chain_of_7_10_on_fragments() {
         simulation.sample(false, &mut samples).unwrap();
         measures.take(&file, &simulation, &samples);
     }
-    assert_formed(&measures.summary(&file).cases[0]);
+    assert_formed(&measures.summary(&file, &samples).cases[0]);
     // Nothing of the discs' repulsion reaches what draws anybody: 2 m from each outline, 3 m from its centre.
     let Task::Nearest(task, _) = &file.task else { panic!("{file:?}") };
     for sample in &samples {
