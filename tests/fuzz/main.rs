@@ -140,23 +140,45 @@ fn fuzz_cdr() {
     });
 }
 
+/// A value of an argument that a launch file asks for.
+fn given(name: &str) -> &'static str {
+    match name {
+        "robots" => "[robot1, robot2]",
+        "robot" => "robot1",
+        "poses" => "[0.5, 0.5, 0.0, 1.0, 1.5, -0.25]",
+        "profile" => "tuned",
+        _ => "square",
+    }
+}
+
+/// Among the others, so that what it includes is there, with whatever arguments it asks for.
 #[test]
 fn fuzz_launch() {
     let folder = in_memory();
-    let file = folder.path().join("fuzz.launch.yaml");
+    let beside = folder.path().join("launch");
+    std::fs::create_dir(&beside).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("launch");
+    for entry in std::fs::read_dir(root).unwrap().map(Result::unwrap) {
+        std::fs::copy(entry.path(), beside.join(entry.file_name())).unwrap();
+    }
+    let file = beside.join("fuzz.launch.yaml");
     let environment: BTreeMap<String, String> = BTreeMap::new();
+    let mut resolved = 0_u64;
     fuzz("launch", &texts("launch", ".launch.yaml"), |text| {
         std::fs::write(&file, text).unwrap();
+        let asked = trench_launch::arguments(&file).unwrap_or_default();
+        let needed = asked.into_iter().filter(|argument| argument.default.is_none());
+        let arguments = needed.map(|argument| (argument.name.clone(), given(&argument.name).to_owned())).collect();
         let request = Request {
             file: &file,
-            arguments: &BTreeMap::new(),
+            arguments: &arguments,
             environment: &environment,
             additions: &BTreeMap::new(),
             parameter_folder: Path::new("parameters"),
         };
-        let _ = trench_launch::arguments(&file);
-        let _ = trench_launch::resolve(&request);
+        resolved += u64::from(trench_launch::resolve(&request).is_ok_and(|plan| !plan.processes.is_empty()));
     });
+    assert!(resolved > 10, "{resolved} files became processes: what they include was not found");
 }
 
 #[test]
