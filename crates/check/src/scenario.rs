@@ -174,9 +174,18 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
-    let (trench, zones) = (steepest(&task.law.trench), task.zoning.full_acceleration());
+    // Along a direction the trench counts Phi'/sin alpha, as chapter 7 of docs/theory has it.
+    let (trench, zones) = (steepest(&task.law.trench) / least_sine(task), task.zoning.full_acceleration());
     let at_once = [task.robots.len().saturating_sub(1), task.obstacles.len()];
     of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
+}
+
+/// Sine of the least angle between the direction of attraction and the segment, as seen at a thousand of its points.
+fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
+    let Some(Method::Directed { direction: Some(along), .. }) = task.options.method else { return 1.0 };
+    let part = task.segment.length() / 1000.0;
+    let sine = |index: u32| task.segment.at(part * f64::from(index)).tangent.perp(&along).abs();
+    (0..=1000).map(sine).fold(1.0, f64::min)
 }
 
 /// The largest slope of a trench; infinite of one that is not admissible.

@@ -142,6 +142,11 @@ fn limits_speak_of_one_robot_and_one_obstacle() {
     assert!(all.holds && !all.note && all.finding.contains("V' <= 0 within limits"), "{all:?}");
     let nearly = limits("9.2_bounded.yaml", "acceleration: 5.0}", "acceleration: 21.9}");
     assert!(nearly.holds && nearly.note, "{nearly:?}");
+    // Along a direction that is nearly the segment's the trench pulls with Phi'/sin alpha.
+    let across = limits("6.5_bounded.yaml", "", "");
+    assert!(across.holds, "{across:?}");
+    let oblique = limits("6.5_bounded.yaml", "compensates: true}", "compensates: true, direction: 0.9}");
+    assert!(!oblique.holds && oblique.finding.contains("trench 8.7"), "{oblique:?}");
     // Robots of 5.6 do not see each other.
     let alone = limits("5.6_bounded.yaml", "", "");
     assert!(alone.holds && !alone.note, "{alone:?}");
