@@ -10,7 +10,7 @@ from pathlib import Path
 import wheels
 from bag import NEAR, Run, Series
 from hosts import BASE
-from motion import AGE, allowed, burst, idle, moves, rest, stale, standstill, stretch
+from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -31,8 +31,8 @@ LIMITS = (0.31, 5.0)
 TOUCH, PUT = 0.16, 0.2
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
-# s, the longest gap in the bag, and s, from one sample of ground truth to the next.
-GAP, RATE = 1.0, 1.0 / 30.0
+# s, the longest gap in the bag.
+GAP = 1.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
@@ -302,7 +302,7 @@ def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
         return sum(t0 <= at - 3600.0 * round((at - t0) / 3600.0) <= end for at in series.times)
 
     paused = sum(fault["for"] for fault in run["faults"] if fault.get("pause") == "bag_recorder")
-    lost = {robot: RATE * (samples(series) - samples(own.truth.get(robot, Series()))) for robot, series in bag.truth.items()}
+    lost = {robot: FRAME * (samples(series) - samples(own.truth.get(robot, Series()))) for robot, series in bag.truth.items()}
     return [f"the bag of the launch has lost {most:.1f} s of {robot}" for robot, most in lost.items() if most > GAP + paused]
 
 

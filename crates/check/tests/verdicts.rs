@@ -75,10 +75,9 @@ fn chains_are_bounded_rank_by_rank() {
     );
 }
 
-/// As many ranks are computed as there are robots, up to 100; of more nothing is promised, and that is said.
-#[test]
-fn long_chains_are_computed_to_their_end() {
-    let of = |robots, tolerance| ChainOfRobots {
+/// Robots with K = (2, 3) that begin within 0.02 of their places.
+fn with_tolerance(robots: usize, tolerance: f64) -> ChainOfRobots<'static> {
+    ChainOfRobots {
         instead_of: None,
         robots,
         gains: (2.0, 3.0),
@@ -86,14 +85,19 @@ fn long_chains_are_computed_to_their_end() {
         tolerance,
         setting_out: 0.0,
         acceleration: None,
-    };
+    }
+}
+
+/// As many ranks are computed as there are robots, up to 100; of more nothing is promised, and that is said.
+#[test]
+fn long_chains_are_computed_to_their_end() {
     for robots in [13, 30] {
-        let verdict = chain("line", &of(robots, 1.0));
+        let verdict = chain("line", &with_tolerance(robots, 1.0));
         assert!(verdict.holds && verdict.finding.contains(&format!("rank {robots} stays within 1 (")), "{verdict:?}");
     }
-    let some = chain("line", &of(30, 0.06));
+    let some = chain("line", &with_tolerance(30, 0.06));
     assert!(!some.holds && some.finding.contains("at most 9 robots in one chain stay within"), "{some:?}");
-    let many = chain("line", &of(101, 1e9));
+    let many = chain("line", &with_tolerance(101, 1e9));
     assert!(
         !many.holds && many.finding.contains("ranks beyond 100 are not computed, and not promised anything"),
         "{many:?}"
@@ -103,24 +107,13 @@ fn long_chains_are_computed_to_their_end() {
 /// All ranks are told to programs, and the longest chain within the tolerance whether or not this one is.
 #[test]
 fn ranks_and_the_longest_chain_are_values() {
-    let of = |robots, tolerance| {
-        let of = ChainOfRobots {
-            instead_of: None,
-            robots,
-            gains: (2.0, 3.0),
-            initial_error: 0.02,
-            tolerance,
-            setting_out: 0.0,
-            acceleration: None,
-        };
-        match chain("line", &of).values {
-            Some(Values::Chain { bounds, recursive_bounds, longest, computed }) => {
-                assert_eq!(bounds.len(), recursive_bounds.len());
-                assert!(bounds.windows(2).all(|pair| pair[0] < pair[1]), "{bounds:?}");
-                (bounds, longest, computed)
-            }
-            other => panic!("{other:?}"),
+    let of = |robots, tolerance| match chain("line", &with_tolerance(robots, tolerance)).values {
+        Some(Values::Chain { bounds, recursive_bounds, longest, computed }) => {
+            assert_eq!(bounds.len(), recursive_bounds.len());
+            assert!(bounds.windows(2).all(|pair| pair[0] < pair[1]), "{bounds:?}");
+            (bounds, longest, computed)
         }
+        other => panic!("{other:?}"),
     };
     let (ten, longest, _) = of(10, 0.05);
     assert_eq!((ten.len(), longest), (10, 7));
