@@ -1,5 +1,6 @@
 //! How near the robots of a team come to each other, without looking at all pairs.
 
+use std::ops::Range;
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::Neighbours;
 use trench_formation::zoning::{Zone, Zoning};
@@ -32,25 +33,37 @@ impl Closest {
         self.least
     }
 
-    /// Looks at the robots of a team; calls `forbidden` for each pair in zone 1.
-    pub(crate) fn take(&mut self, team: &[PointState], zoning: Option<&Zoning>, mut forbidden: impl FnMut()) {
+    /// Seeks who is near whom in a team; whether any pair can say anything new.
+    pub(crate) fn prepare(&mut self, team: &[PointState], zoning: Option<&Zoning>) -> bool {
         // No pair beyond the nearest so far, or of some, nor beyond zone 1, says anything new.
         let some = || team.windows(2).map(|pair| (pair[1].position - pair[0].position).norm());
         let nearest = if self.least.is_finite() { self.least } else { some().fold(self.least, f64::min) };
         let needed = nearest.max(zoning.map_or(0.0, |zoning| zoning.radii().rho_underbar));
         if !needed.is_finite() {
-            return;
+            return false;
         }
         // Nobody is nearer than in the same place.
         if needed <= 0.0 {
             self.least = 0.0;
-            return;
+            return false;
         }
         if !(needed..=TOO_WIDE * needed).contains(&self.range) {
             self.range = WIDER * needed;
         }
         self.neighbours.update(self.range, team, &[]);
-        for (index, robot) in team.iter().enumerate() {
+        true
+    }
+
+    /// Looks at some robots of the team that was prepared, and at their neighbours before them; calls `forbidden` for each pair in zone 1.
+    #[inline]
+    pub(crate) fn take(
+        &mut self,
+        team: &[PointState],
+        some: Range<usize>,
+        zoning: Option<&Zoning>,
+        mut forbidden: impl FnMut(),
+    ) {
+        for (index, robot) in some.clone().zip(&team[some]) {
             for &mate in self.neighbours.of(index).iter().take_while(|mate| (**mate as usize) < index) {
                 let distance = (team[mate as usize].position - robot.position).norm();
                 self.least = self.least.min(distance);
@@ -85,7 +98,11 @@ mod tests {
             let (mut closest, mut seconds) = (Closest::default(), 0);
             let (mut least, mut expected) = (f64::INFINITY, 0);
             for step in 0..12 {
-                closest.take(&team, zoning.as_ref(), || seconds += 1);
+                if closest.prepare(&team, zoning.as_ref()) {
+                    let half = team.len() / 2;
+                    closest.take(&team, 0..half, zoning.as_ref(), || seconds += 1);
+                    closest.take(&team, half..team.len(), zoning.as_ref(), || seconds += 1);
+                }
                 for (index, robot) in team.iter().enumerate() {
                     for mate in &team[..index] {
                         let distance = (mate.position - robot.position).norm();
@@ -112,11 +129,14 @@ mod tests {
     fn robots_in_the_same_place_are_no_trouble() {
         let mut closest = Closest::default();
         for x in [1.0, 2.0] {
-            closest.take(&[at(1.0, 1.0), at(x, 1.0)], None, || {});
+            let team = [at(1.0, 1.0), at(x, 1.0)];
+            if closest.prepare(&team, None) {
+                closest.take(&team, 0..2, None, || {});
+            }
             assert_eq!(closest.least(), 0.0);
         }
         let mut alone = Closest::default();
-        alone.take(&[at(1.0, 1.0)], None, || {});
+        assert!(!alone.prepare(&[at(1.0, 1.0)], None));
         assert_eq!(alone.least(), f64::INFINITY);
     }
 }

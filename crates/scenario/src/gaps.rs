@@ -1,5 +1,6 @@
 //! How near the robots of a team come to obstacles, without looking at all of these for every robot at every step.
 
+use std::ops::Range;
 use trench_formation::Vector2;
 use trench_formation::hull::Obstacle;
 use trench_formation::kinematics::PointState;
@@ -32,8 +33,8 @@ impl Gaps {
         &self.least
     }
 
-    /// Looks at the robots of a team.
-    pub(crate) fn take(&mut self, real: &[Obstacle], team: &[PointState]) {
+    /// Takes note of the obstacles as they are now.
+    pub(crate) fn prepare(&mut self, real: &[Obstacle], team: &[PointState]) {
         if self.known != real || self.looked_at.len() != team.len() {
             self.known.clear();
             self.known.extend_from_slice(real);
@@ -44,14 +45,19 @@ impl Gaps {
             self.looked_at.clear();
             self.looked_at.extend(team.iter().map(|robot| LookedAt { position: robot.position, room: -1.0 }));
         }
-        if real.is_empty() {
+    }
+
+    /// Looks at some robots of the team that was prepared.
+    #[inline]
+    pub(crate) fn take(&mut self, team: &[PointState], some: Range<usize>) {
+        if self.known.is_empty() {
             return;
         }
-        for (robot, looked_at) in team.iter().zip(&mut self.looked_at) {
+        for (robot, looked_at) in team[some.clone()].iter().zip(&mut self.looked_at[some]) {
             let LookedAt { position, room } = *looked_at;
             // Gaps have fallen by no more than the way since then, and the least has not risen.
             if room <= 0.0 || (robot.position - position).norm_squared() >= room * room {
-                *looked_at = look(&mut self.least, real, robot.position);
+                *looked_at = look(&mut self.least, &self.known, robot.position);
             }
         }
     }
@@ -95,7 +101,9 @@ mod tests {
             let mut real = obstacles(&at)?;
             let (mut gaps, mut least) = (Gaps::default(), vec![f64::INFINITY; at.len()]);
             for step in 0..40 {
-                gaps.take(&real, &team);
+                gaps.prepare(&real, &team);
+                gaps.take(&team, 0..team.len() / 2);
+                gaps.take(&team, team.len() / 2..team.len());
                 for (obstacle, least) in real.iter().zip(&mut least) {
                     for robot in &team {
                         *least = least.min(obstacle.shape.outline().approach(robot.position).gap);

@@ -5,10 +5,14 @@ use crate::gaps::Gaps;
 use crate::robots::Robots;
 use crate::summary::{CaseSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary};
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
+use std::ops::Range;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
 use trench_formation::stability::final_misalignment;
-use trench_formation::zoning::Zone;
+use trench_formation::zoning::{Zone, Zoning};
+
+/// Robots that are looked at in one go, for all that is measured of them: so many stay in the nearest cache.
+const BLOCK: usize = 256;
 
 /// What is kept between steps.
 #[derive(Debug, Clone)]
@@ -16,37 +20,55 @@ pub struct Measures {
     seats: Vec<Seat>,
     /// s.
     time: f64,
-    last_away: Vec<f64>,
-    leader_range: Vec<[f64; 2]>,
-    /// Greatest Lyapunov function and greatest rate of it.
-    lyapunov: Vec<[f64; 2]>,
+    /// By seat.
+    kept: Vec<Kept>,
     /// By case.
-    closest: Vec<Closest>,
-    /// By case.
-    gaps: Vec<Gaps>,
-    last_outside: Vec<f64>,
-    in_zone_1: Vec<f64>,
+    teams: Vec<Team>,
     copies: Vec<PointState>,
+}
+
+/// Of a robot.
+#[derive(Debug, Clone, Copy)]
+struct Kept {
+    /// Index of its leader.
+    leader: Option<u32>,
+    /// When it was last away from what draws it, s; negative: never.
+    last_away: f64,
+    /// Least and greatest, m.
+    leader_range: [f64; 2],
+    /// Greatest Lyapunov function and greatest rate of it.
+    lyapunov: [f64; 2],
+}
+
+/// Of the robots of a case, which stand together.
+#[derive(Debug, Clone)]
+struct Team {
+    seats: Range<usize>,
+    closest: Closest,
+    gaps: Gaps,
+    /// When a robot was last outside its leader's neutral zone, s; negative: never.
+    last_outside: f64,
+    /// s.
+    in_zone_1: f64,
 }
 
 impl Measures {
     /// Before the first step.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
-        let (seats, cases) = (scenario.seats(), scenario.cases().len());
-        let count = seats.len();
-        Self {
-            seats,
-            time: 0.0,
-            last_away: vec![-1.0; count],
-            leader_range: vec![[f64::INFINITY, 0.0]; count],
-            lyapunov: vec![[f64::NEG_INFINITY; 2]; count],
-            closest: vec![Closest::default(); cases],
-            gaps: vec![Gaps::default(); cases],
-            last_outside: vec![-1.0; cases],
-            in_zone_1: vec![0.0; cases],
-            copies: Vec::new(),
+        let seats = scenario.seats();
+        let kept = |seat: &Seat| Kept {
+            leader: seat.leader.map(|leader| leader as u32),
+            last_away: -1.0,
+            leader_range: [f64::INFINITY, 0.0],
+            lyapunov: [f64::NEG_INFINITY; 2],
+        };
+        let mut teams: Vec<Team> = scenario.cases().iter().map(|_| Team::new()).collect();
+        for (index, seat) in seats.iter().enumerate() {
+            let team = &mut teams[seat.case].seats;
+            *team = if team.end == 0 { index } else { team.start }..index + 1;
         }
+        Self { time: 0.0, kept: seats.iter().map(kept).collect(), teams, copies: Vec::new(), seats }
     }
 
     /// Looks at all robots, before the first step and after each. `samples` are of now; where [`Simulation::tells_itself`] nobody looks
@@ -66,34 +88,22 @@ impl Measures {
     fn look(&mut self, scenario: &Scenario, simulation: &Simulation, robots: &(impl Robots + ?Sized)) {
         let (time, zoning, obstacles) = (simulation.time(), scenario.zoning(), simulation.obstacles());
         self.time = time;
-        let kept = self.last_away.iter_mut().zip(&mut self.leader_range).zip(&mut self.lyapunov);
-        for (index, (seat, ((last_away, leader_range), lyapunov))) in self.seats.iter().zip(kept).enumerate() {
-            let deviation = robots.deviation(index);
-            if deviation.is_nan() || deviation > scenario.tolerance {
-                *last_away = time;
-            }
-            if let Some([value, rate]) = robots.lyapunov(index) {
-                *lyapunov = [lyapunov[0].max(value), lyapunov[1].max(rate)];
-            }
-            if let Some(leader) = seat.leader {
-                let distance = (robots.position(leader) - robots.position(index)).norm();
-                *leader_range = [leader_range[0].min(distance), leader_range[1].max(distance)];
-                if zoning.is_some_and(|zoning| zoning.zone(distance) != Zone::Neutral) {
-                    self.last_outside[seat.case] = time;
+        for Team { seats, closest, gaps, last_outside, in_zone_1 } in &mut self.teams {
+            let points = robots.points(seats.start, seats.end, &mut self.copies);
+            let has_pairs = closest.prepare(points, zoning);
+            gaps.prepare(obstacles.unwrap_or_default(), points);
+            for first in seats.clone().step_by(BLOCK) {
+                let block = first..seats.end.min(first + BLOCK);
+                for (index, kept) in block.clone().zip(&mut self.kept[block.clone()]) {
+                    let outside = kept.look(robots, index, (time, scenario.tolerance), zoning);
+                    *last_outside = if outside { time } else { *last_outside };
                 }
+                let block = block.start - seats.start..block.end - seats.start;
+                if has_pairs {
+                    closest.take(points, block.clone(), zoning, || *in_zone_1 += scenario.timing.step);
+                }
+                gaps.take(points, block);
             }
-        }
-        // Robots of a case stand together.
-        let mut first = 0;
-        for team in self.seats.chunk_by(|seat, next| seat.case == next.case) {
-            let (case, end) = (team[0].case, first + team.len());
-            let team = robots.points(first, end, &mut self.copies);
-            let in_zone_1 = &mut self.in_zone_1[case];
-            self.closest[case].take(team, zoning, || *in_zone_1 += scenario.timing.step);
-            if let Some(real) = obstacles {
-                self.gaps[case].take(real, team);
-            }
-            first = end;
         }
     }
 
@@ -127,14 +137,14 @@ impl Measures {
                     name: seat.name.clone(),
                     position: pair(sample.position),
                     error: sample.deviation,
-                    conforms_after: since(self.last_away[index]),
+                    conforms_after: since(self.kept[index].last_away),
                     leader_distance: leader,
-                    leader_distance_range: seat.leader.map(|_| self.leader_range[index]),
+                    leader_distance_range: seat.leader.map(|_| self.kept[index].leader_range),
                     misalignment: is_unicycle.then_some(sample.misalignment),
                     resting_misalignment: resting(scenario, case, seat.rank),
                     effort: is_unicycle.then_some(sample.effort),
                     lyapunov: sample.lyapunov.map(|[last, _]| {
-                        let [greatest, greatest_rate] = self.lyapunov[index];
+                        let [greatest, greatest_rate] = self.kept[index].lyapunov;
                         LyapunovSummary { greatest, last, greatest_rate }
                     }),
                 }
@@ -145,16 +155,47 @@ impl Measures {
         CaseSummary {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
-            closest_pair: (robots.len() > 1).then_some(self.closest[case].least()),
-            obstacles: self.gaps[case]
+            closest_pair: (robots.len() > 1).then_some(self.teams[case].closest.least()),
+            obstacles: self.teams[case]
+                .gaps
                 .least()
                 .iter()
                 .map(|&(id, least_gap)| ObstacleSummary { id, least_gap })
                 .collect(),
-            neutral_after: if has_leaders { since(self.last_outside[case]) } else { None },
-            in_zone_1: self.in_zone_1[case],
+            neutral_after: if has_leaders { since(self.teams[case].last_outside) } else { None },
+            in_zone_1: self.teams[case].in_zone_1,
             robots,
         }
+    }
+}
+
+impl Kept {
+    /// Looks at the robot at `time` (s), which conforms within `tolerance` (m); whether it is outside its leader's neutral zone.
+    #[inline]
+    fn look(
+        &mut self,
+        robots: &(impl Robots + ?Sized),
+        index: usize,
+        (time, tolerance): (f64, f64),
+        zoning: Option<&Zoning>,
+    ) -> bool {
+        let deviation = robots.deviation(index);
+        if deviation.is_nan() || deviation > tolerance {
+            self.last_away = time;
+        }
+        if let Some([value, rate]) = robots.lyapunov(index) {
+            self.lyapunov = [self.lyapunov[0].max(value), self.lyapunov[1].max(rate)];
+        }
+        let Some(leader) = self.leader else { return false };
+        let distance = (robots.position(leader as usize) - robots.position(index)).norm();
+        self.leader_range = [self.leader_range[0].min(distance), self.leader_range[1].max(distance)];
+        zoning.is_some_and(|zoning| zoning.zone(distance) != Zone::Neutral)
+    }
+}
+
+impl Team {
+    fn new() -> Self {
+        Self { seats: 0..0, closest: Closest::default(), gaps: Gaps::default(), last_outside: -1.0, in_zone_1: 0.0 }
     }
 }
 
