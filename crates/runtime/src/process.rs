@@ -119,11 +119,11 @@ impl Process {
         self.nodes.iter_mut().for_each(Node::start);
         let mut events = Events::with_capacity(256);
         let code = loop {
-            self.tick()?;
+            let wait = self.tick()?;
             if let Some(code) = self.nodes.iter().find_map(Node::exit) {
                 break code;
             }
-            match self.poll.poll(&mut events, None) {
+            match self.poll.poll(&mut events, wait) {
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
                 other => other?,
             }
@@ -190,8 +190,8 @@ impl Process {
         }
     }
 
-    /// Does what is due and arms the timer for what comes next.
-    fn tick(&mut self) -> io::Result<()> {
+    /// Does what is due and arms the timer for what comes next; gives how long the loop may wait, if there is a limit.
+    fn tick(&mut self) -> io::Result<Option<Duration>> {
         let now = steady_now();
         let mut next: Option<Steady> = None;
         let at_leisure = self.leisure.is_some_and(|at| at <= now);

@@ -1,5 +1,6 @@
 //! A timer that the event loop waits for: the kernel's, since poll time-outs count in milliseconds.
 
+use crate::clock::steady_now;
 use rustdds::mio1::unix::SourceFd;
 use rustdds::mio1::{Interest, Registry, Token};
 use rustix::time::{
@@ -7,6 +8,7 @@ use rustix::time::{
 };
 use std::io;
 use std::os::fd::{AsRawFd, OwnedFd};
+use std::time::Duration;
 use trench_core::Steady;
 
 /// Wakes the loop at one moment of the monotonic clock.
@@ -28,10 +30,14 @@ impl Timer {
         registry.register(&mut SourceFd(&self.descriptor.as_raw_fd()), token, Interest::READABLE)
     }
 
-    /// Arms it for `at` (at once if that has passed), or not at all.
-    pub(crate) fn set(&mut self, at: Option<Steady>) -> io::Result<()> {
+    /// Arms it for `at`, or not at all. Gives how long the loop may wait for anything: what is due already is due without the
+    /// kernel's help, which costs as much as a message.
+    pub(crate) fn set(&mut self, at: Option<Steady>) -> io::Result<Option<Duration>> {
+        if at.is_some_and(|at| at <= steady_now()) {
+            return Ok(Some(Duration::ZERO));
+        }
         if self.armed == at {
-            return Ok(());
+            return Ok(None);
         }
         // All zero means "never" to the kernel: a time at the very start of the clock becomes its first nanosecond.
         let nanoseconds = at.map_or(0, |at| at.0.max(1));
@@ -42,7 +48,7 @@ impl Timer {
         let once = Itimerspec { it_interval: Timespec { tv_sec: 0, tv_nsec: 0 }, it_value: value };
         timerfd_settime(&self.descriptor, TimerfdTimerFlags::ABSTIME, &once)?;
         self.armed = at;
-        Ok(())
+        Ok(None)
     }
 
     /// Acknowledges that it went off; the next [`Timer::set`] arms it anew.
