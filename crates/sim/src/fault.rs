@@ -128,7 +128,7 @@ impl FaultKind {
             Self::Carried { .. } => "carried",
             Self::Battery { .. } => "battery",
             Self::Silent { .. } => "silent",
-            Self::Off { .. } => "off",
+            Self::Off { .. } => "switched_off",
             Self::Doubled { .. } => "doubled",
             Self::Parted { .. } => "parted",
             Self::Far { .. } => "far",

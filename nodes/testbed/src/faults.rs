@@ -30,7 +30,7 @@ const KINDS: [&str; 21] = [
     "replayed",
     "corrupted",
     "missed",
-    "off",
+    "switched_off",
     "doubled",
     "recorded",
 ];
@@ -73,7 +73,7 @@ fn fault(map: &Map<'_>, names: &[String]) -> Result<Fault, ConfigError> {
         "replayed" => FaultKind::Intruder(Intrusion::Replayed),
         "corrupted" => FaultKind::Intruder(Intrusion::Corrupted),
         "recorded" => FaultKind::Intruder(Intrusion::Recorded),
-        "off" => FaultKind::Off { robots: robots(map, names)? },
+        "switched_off" => FaultKind::Off { robots: robots(map, names)? },
         "doubled" => {
             let (robot, like) = (map.str("robot")?, map.str("like")?);
             FaultKind::Doubled { robot: index(map, "robot", robot, names)?, like: index(map, "like", like, names)? }
@@ -152,7 +152,7 @@ mod tests {
             ("replayed", ""),
             ("corrupted", ""),
             ("missed", "robots: [robot1], share: 0.2"),
-            ("off", "robots: [robot1]"),
+            ("switched_off", "robots: [robot1]"),
             ("doubled", "robot: robot1, like: robot2"),
             ("recorded", ""),
         ];
