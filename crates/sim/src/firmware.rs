@@ -338,8 +338,8 @@ mod tests {
             send(&mut firmware, 1, 400, drive(80), Some(&key));
             assert_eq!(firmware.wheels(2 * MILLISECOND), Wheels::STOP, "recorded, or not");
             let nonce = hello(&mut firmware, 5, &key);
-            let others = (0..later_hellos).map(|_| hello(&mut firmware, 6, &key));
-            assert!(others.fold(true, |all, other| all && other != nonce), "each hello has its own");
+            let others: Vec<u64> = (0..later_hellos).map(|_| hello(&mut firmware, 6, &key)).collect();
+            assert!(!others.contains(&nonce), "each hello has its own");
             send(&mut firmware, now - 1, 500, Payload::Welcome(answer(nonce)), sealed);
             send(&mut firmware, now, 501, drive(80), Some(&key));
             assert_eq!(firmware.wheels(now * MILLISECOND) != Wheels::STOP, obeys);
