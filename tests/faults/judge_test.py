@@ -34,7 +34,7 @@ def stuffed(body: bytes) -> bytes:
 def packet(speed: float) -> bytes:
     """Tells robot1's wheels one speed (docs/protocols/radio.md)."""
     timer = round(SPEED_TIMES_TIMER / speed)
-    body = bytes([0x20, 0x20]) + bytes(7) + struct.pack("<BIHHB", 0, 1 << 1, timer, timer, 0)
+    body = bytes([0x30, 0x30]) + bytes(7) + struct.pack("<BIHHB", 0, 1 << 1, timer, timer, 0)
     return stuffed(body + binascii.crc_hqx(body, 0xFFFF).to_bytes(2, "little"))
 
 

@@ -17,7 +17,7 @@ CLOSE = 0.0005
 PIECE = struct.Struct("<dI")
 # Bits of a packet's flags that say how often it may be relayed: then a list of relays follows.
 RELAYED = 0b1110
-DOWNLINK, COMMANDS = 0x20, 0x20
+DOWNLINK, COMMANDS = 0x30, 0x30
 
 
 @dataclass

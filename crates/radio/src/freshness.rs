@@ -36,6 +36,11 @@ impl Freshness {
         Ok(())
     }
 
+    /// Whatever was accepted before, this counter is the last one now.
+    pub fn set(&mut self, counter: u64, now: u64) {
+        self.last = Some((counter, now));
+    }
+
     /// The last counter accepted and when.
     #[must_use]
     pub fn last(&self) -> Option<(u64, u64)> {

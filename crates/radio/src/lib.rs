@@ -19,6 +19,7 @@ mod packet;
 mod relays;
 mod telemetry;
 mod timer;
+mod welcome;
 
 pub use age::{AgeMeter, COUNTER_TICK, USUAL_AGE};
 pub use command::{Commands, MAX_ROBOTS, RobotSet};
@@ -31,3 +32,4 @@ pub use packet::{COUNTER_LIMIT, Packet, Payload, VERSION, relayed_once_more};
 pub use relays::{MAX_RELAYS, RELAY_SLOT, RelayList, Relaying};
 pub use telemetry::{Fault, MAX_RANGES, NOTHING_IN_RANGE, Ranges, TELEMETRY_ROUND, Telemetry};
 pub use timer::{METRES_PER_STEP, SPEED_TIMES_TIMER, TIMER_FASTEST, TIMER_SLOWEST, WheelTimer, Wheels, wheel_speed};
+pub use welcome::{MAX_WELCOMED, Welcome};

@@ -1,10 +1,10 @@
 //! What goes over the air: header, payload, authentication tag.
 
 use crate::key::TAG_LENGTH;
-use crate::{Commands, Key, MAX_RELAYS, PacketError, RelayList, Relaying, RobotSet, Telemetry};
+use crate::{Commands, Key, MAX_RELAYS, PacketError, RelayList, Relaying, RobotSet, Telemetry, Welcome};
 
 /// The version of the protocol.
-pub const VERSION: u8 = 2;
+pub const VERSION: u8 = 3;
 
 /// Counters are below this: they have 48 bits.
 pub const COUNTER_LIMIT: u64 = 1 << 48;
@@ -18,8 +18,14 @@ const FLAG_TAG: u8 = 1;
 /// Flags: how often the packet may be relayed.
 const FLAGS_LIMIT: u8 = 0b1110;
 
-/// The kind of packet that robots send; all others come from the base.
+/// The kinds of packets that robots send; all others come from the base.
 const TELEMETRY: u8 = 3;
+const HELLO: u8 = 4;
+
+const WELCOME: u8 = 5;
+
+/// Bytes of a nonce.
+const NONCE_LENGTH: usize = 8;
 
 /// What a packet says.
 #[expect(clippy::large_enum_variant, reason = "lives on the stack for one call; a box would allocate every cycle")]
@@ -33,6 +39,27 @@ pub enum Payload {
     Reset(RobotSet),
     /// Robot to base.
     Telemetry(Telemetry),
+    /// Robot with a key to base, in place of [`Payload::Telemetry`] until it is welcomed: it was switched on and knows no
+    /// counter of the base.
+    Hello {
+        /// A number that nobody could know before; each hello has its own.
+        nonce: u64,
+        /// What it reports.
+        report: Telemetry,
+    },
+    /// Base to robots that said hello.
+    Welcome(Welcome),
+}
+
+impl Payload {
+    /// What a robot reports, if a robot sends it.
+    #[must_use]
+    pub fn report(&self) -> Option<&Telemetry> {
+        match self {
+            Self::Telemetry(report) | Self::Hello { report, .. } => Some(report),
+            Self::Commands(_) | Self::EmergencyStop(_) | Self::Reset(_) | Self::Welcome(_) => None,
+        }
+    }
 }
 
 /// A packet over the air.
@@ -57,6 +84,8 @@ impl Packet {
             Payload::EmergencyStop(_) => 1,
             Payload::Reset(_) => 2,
             Payload::Telemetry(_) => TELEMETRY,
+            Payload::Hello { .. } => HELLO,
+            Payload::Welcome(_) => WELCOME,
         };
         let tag_flag = if key.is_some() { FLAG_TAG } else { 0 };
         out.extend([VERSION << 4 | kind, tag_flag | self.relaying.limit() << 1]);
@@ -68,6 +97,11 @@ impl Packet {
             Payload::Commands(commands) => commands.encode(out),
             Payload::EmergencyStop(robots) | Payload::Reset(robots) => out.extend(robots.0.to_le_bytes()),
             Payload::Telemetry(telemetry) => telemetry.encode(out),
+            Payload::Hello { nonce, report } => {
+                out.extend(nonce.to_le_bytes());
+                report.encode(out);
+            }
+            Payload::Welcome(welcome) => welcome.encode(out),
         }
         if let Some(key) = key {
             let tag = key.tag(&out[start..], &[]);
@@ -128,7 +162,7 @@ fn decode_relaying(kind: u8, limit: u8, rest: &[u8]) -> Result<(Relaying, &[u8])
     }
     match (limit, kind) {
         (0, _) => Ok((Relaying::Direct, rest)),
-        (_, TELEMETRY) => Ok((Relaying::Anyone(limit), rest)),
+        (_, TELEMETRY | HELLO) => Ok((Relaying::Anyone(limit), rest)),
         _ => {
             let (bits, rest) = rest.split_first_chunk::<2>().ok_or(PacketError::Length(rest.len()))?;
             Ok((Relaying::By(RelayList::from_bits(u16::from_le_bytes(*bits), limit)), rest))
@@ -147,6 +181,12 @@ fn decode_payload(kind: u8, bytes: &[u8]) -> Result<Payload, PacketError> {
         1 => robots().map(Payload::EmergencyStop),
         2 => robots().map(Payload::Reset),
         TELEMETRY => Telemetry::decode(bytes).map(Payload::Telemetry),
+        HELLO => {
+            let (nonce, report) = bytes.split_first_chunk::<NONCE_LENGTH>().ok_or(PacketError::Length(bytes.len()))?;
+            let nonce = u64::from_le_bytes(*nonce);
+            Telemetry::decode(report).map(|report| Payload::Hello { nonce, report })
+        }
+        WELCOME => Welcome::decode(bytes).map(Payload::Welcome),
         _ => Err(PacketError::Kind(kind)),
     }
 }

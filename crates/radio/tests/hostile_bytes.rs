@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use trench_radio::{
     Commands, Key, LinkFrame, MAX_ROBOTS, Packet, PacketError, Payload, Ranges, RelayList, Relaying, RobotSet,
-    StreamDecoder, Telemetry, WheelTimer, Wheels,
+    StreamDecoder, Telemetry, Welcome, WheelTimer, Wheels,
 };
 
 fn key() -> Key {
@@ -26,12 +26,16 @@ fn any_packet() -> impl Strategy<Value = Packet> {
         commands,
         any::<u32>().prop_map(|set| Payload::EmergencyStop(RobotSet(set))),
         any::<u32>().prop_map(|set| Payload::Reset(RobotSet(set))),
+        prop::collection::vec((0..32u8, any::<u64>()), 1..5).prop_map(|robots| Payload::Welcome(Welcome::new(&robots))),
     ];
     let relays = prop::collection::vec(0..32u8, 0..4).prop_map(|ids| Relaying::by(RelayList::new(&ids)));
     let down = (relays, payload);
-    let report = (0..32u8, any::<u32>(), prop::collection::vec(any::<u8>(), 0..9)).prop_map(|(robot, set, ranges)| {
+    let ranges = prop::collection::vec(any::<u8>(), 0..9);
+    let nonce = prop::option::of(any::<u64>());
+    let report = (0..32u8, any::<u32>(), ranges, nonce).prop_map(|(robot, set, ranges, nonce)| {
         let (neighbours, ranges) = (RobotSet(set), Ranges::new(&ranges));
-        Payload::Telemetry(Telemetry { robot, neighbours, ranges, ..Telemetry::default() })
+        let report = Telemetry { robot, neighbours, ranges, ..Telemetry::default() };
+        nonce.map_or(Payload::Telemetry(report), |nonce| Payload::Hello { nonce, report })
     });
     let asked = (0..4u8).prop_map(|limit| if limit == 0 { Relaying::Direct } else { Relaying::Anyone(limit) });
     let up = (asked, report);
@@ -121,7 +125,7 @@ fn errors_are_counted_by_kind() {
     bytes.push(0);
     bytes.extend([9, 1, 0]);
     bytes.extend(flipped);
-    for body in [&[][..], &[0x10, 1, 2], &[0x2f], &[0x22, 1]] {
+    for body in [&[][..], &[0x20, 1, 2], &[0x3f], &[0x32, 1]] {
         trench_radio::framing::frame(body, &mut bytes);
     }
     let (seen, decoder) = received(&bytes, 7);

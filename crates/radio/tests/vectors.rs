@@ -3,10 +3,13 @@
 
 use trench_radio::{
     Ack, AckStatus, Commands, Fault, Key, LinkFrame, Packet, Payload, Ranges, RelayList, Relaying, RobotSet,
-    StreamDecoder, Telemetry, WheelTimer, Wheels, relayed_once_more,
+    StreamDecoder, Telemetry, Welcome, WheelTimer, Wheels, relayed_once_more,
 };
 
 const DOCUMENT: &str = include_str!("../../../docs/protocols/radio.md");
+
+/// What a robot drew.
+const NONCE: u64 = 0xfeed_0123_4567_89ab;
 
 fn key() -> Key {
     Key::new(std::array::from_fn(|index| index as u8))
@@ -80,9 +83,8 @@ fn stop_and_reset() {
     check_downlink("reset", direct(8, Payload::Reset(RobotSet(0b1_0010))), Some(&key()));
 }
 
-#[test]
-fn telemetry() {
-    let telemetry = Telemetry {
+fn report() -> Telemetry {
+    Telemetry {
         robot: 4,
         fault: Fault(Fault::LOW_BATTERY.0 | Fault::MISSED_STEPS.0),
         last_counter: 0x0506,
@@ -96,18 +98,65 @@ fn telemetry() {
         steps_right: 70_000,
         uptime_ms: 3_600_000,
         ranges: Ranges::new(&[35, 255, 12, 80]),
-    };
-    let packet = Packet { relaying: Relaying::Anyone(3), ..direct(9, Payload::Telemetry(telemetry)) };
+    }
+}
+
+/// A packet to the base, over the line and back.
+fn check_uplink(name: &str, payload: Payload) {
+    let packet = Packet { relaying: Relaying::Anyone(3), ..direct(9, payload) };
     let (mut bytes, mut line) = (Vec::new(), Vec::new());
     packet.encode(Some(&key()), &mut bytes);
     LinkFrame::Uplink { signal_dbm: -58, wait_ms: 3, packet: &bytes }.encode(&mut line);
-    check("telemetry", &line);
+    check(name, &line);
     let mut seen = 0;
     StreamDecoder::default().push(&line, |frame| {
         assert_eq!(frame, LinkFrame::Uplink { signal_dbm: -58, wait_ms: 3, packet: &bytes });
         seen += 1;
     });
     assert_eq!((seen, Packet::decode(&bytes, Some(&key()))), (1, Ok(packet)));
+}
+
+#[test]
+fn telemetry() {
+    check_uplink("telemetry", Payload::Telemetry(report()));
+}
+
+#[test]
+fn hello_and_welcome() {
+    let switched_on = Telemetry {
+        fault: Fault::COMMAND_TIMEOUT,
+        last_counter: 0,
+        last_age_ms: 255,
+        last_relayed: 0,
+        received: 0,
+        neighbours: RobotSet::default(),
+        signal_dbm: 0,
+        steps_left: 0,
+        steps_right: 0,
+        uptime_ms: 80,
+        ..report()
+    };
+    check_uplink("hello", Payload::Hello { nonce: NONCE, report: switched_on });
+    let welcome = Welcome::new(&[(4, NONCE), (17, 1)]);
+    assert_eq!([4, 17, 3].map(|robot| welcome.nonce(robot)), [Some(NONCE), Some(1), None]);
+    check_downlink("welcome", direct(10, Payload::Welcome(welcome)), Some(&key()));
+    let relayed =
+        Packet { relayed: 1, relaying: Relaying::By(RelayList::new(&[3])), ..direct(10, Payload::Welcome(welcome)) };
+    check_downlink("welcome relayed", relayed, Some(&key()));
+}
+
+/// A welcome of nobody, of more than there is room for, or of half a robot is none.
+#[test]
+fn lengths_of_welcomes() {
+    let (mut bytes, count) = (Vec::new(), trench_radio::MAX_WELCOMED);
+    direct(1, Payload::Welcome(Welcome::new(&[(1, NONCE)]))).encode(None, &mut bytes);
+    let (header, entry) = bytes.split_at(8);
+    for length in 0..=9 * (count + 1) {
+        let entries = entry.iter().cycle().take(length).copied();
+        let packet: Vec<u8> = header.iter().copied().chain(entries).collect();
+        let whole = length > 0 && length % 9 == 0 && length <= 9 * count;
+        assert_eq!(Packet::decode(&packet, None).is_ok(), whole, "{length}");
+    }
 }
 
 #[test]
@@ -137,4 +186,15 @@ fn twenty_robots_with_tag_fit_into_ten_milliseconds() {
         // With the delimiter that the host sends first.
         assert!((line.len() + 1) as f64 * 10.0 / 115_200.0 < 0.010);
     }
+}
+
+/// The longest welcome keeps commands waiting for less than a frame of theirs does.
+#[test]
+fn a_welcome_is_on_the_line_for_six_milliseconds() {
+    let robots: Vec<(u8, u64)> = (1..=trench_radio::MAX_WELCOMED as u8).map(|robot| (robot, NONCE)).collect();
+    let relaying = Relaying::by(RelayList::new(&[1, 2, 3]));
+    let (mut bytes, mut line) = (Vec::new(), Vec::new());
+    Packet { relaying, ..direct(1, Payload::Welcome(Welcome::new(&robots))) }.encode(Some(&key()), &mut bytes);
+    LinkFrame::Downlink { packet: &bytes }.encode(&mut line);
+    assert!((line.len() + 1) as f64 * 10.0 / 115_200.0 < 0.006, "{} bytes", line.len());
 }

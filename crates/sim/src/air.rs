@@ -39,12 +39,13 @@ pub(crate) struct Air {
 }
 
 impl Air {
-    pub(crate) fn new(setup: MediumSetup, seed: u64, now: u64) -> Self {
+    /// `recorded`: whether somebody keeps all that the base station says.
+    pub(crate) fn new(setup: MediumSetup, seed: u64, now: u64, recorded: bool) -> Self {
         let medium = Medium::new(setup, seed, now);
         Self {
             medium,
             cuts: Cuts::default(),
-            intruder: Intruder::default(),
+            intruder: Intruder::new(recorded),
             to_robots: Flights::new(),
             to_base: Flights::new(),
             sent: 0,

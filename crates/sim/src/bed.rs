@@ -2,11 +2,12 @@
 
 use crate::air::{Air, Station};
 use crate::base_station::BaseStation;
-use crate::fault::{Cuts, FaultKind, Faults};
-use crate::firmware::{Firmware, Sensors};
+use crate::fault::{Cuts, FaultKind, Faults, Intrusion};
+use crate::firmware::Sensors;
 use crate::medium::MediumSetup;
 use crate::serial_line::SerialLine;
 use crate::setup::{BedSetup, Shutter};
+use crate::switch::{Robot, Switched};
 use crate::world::STEP;
 use crate::{Contact, Laser, Obstacle, Random, Truth, World, battery};
 use std::collections::{BTreeMap, VecDeque};
@@ -75,7 +76,7 @@ struct Waiting {
 #[derive(Debug, Clone)]
 pub struct Bed {
     world: World,
-    firmware: Vec<(u8, Firmware)>,
+    robots: Vec<Robot>,
     air: Air,
     relayed: BTreeMap<(u64, u64), Waiting>,
     relays: u64,
@@ -118,14 +119,29 @@ impl Bed {
     /// Everything at rest at `setup.start`. The first frame is exposed one period later.
     #[must_use]
     pub fn new(setup: BedSetup) -> Self {
-        let BedSetup { start, seed, robots, body, field, obstacles, medium, shutter, lasers, laser, baud, key, faults } =
-            setup;
+        let BedSetup {
+            start,
+            seed,
+            robots,
+            body,
+            field,
+            obstacles,
+            medium,
+            shutter,
+            lasers,
+            laser,
+            baud,
+            key,
+            nonces,
+            faults,
+        } = setup;
         let poses = robots.iter().map(|(_, pose)| *pose).collect();
+        let recorded = faults.any(|kind| matches!(kind, FaultKind::Intruder(Intrusion::Recorded)));
         let slot = |id: u8| start + u64::from(id) * (TELEMETRY_ROUND / MAX_ROBOTS as u64);
         Self {
             world: World::new(start, body, field, obstacles, poses),
-            firmware: robots.iter().map(|&(id, _)| (id, Firmware::new(id, key.clone(), start))).collect(),
-            air: Air::new(medium, seed, start),
+            robots: robots.iter().map(|&(id, _)| Robot::new(id, key.clone(), start, nonces)).collect(),
+            air: Air::new(medium, seed, start, recorded),
             relayed: BTreeMap::new(),
             relays: 0,
             base: BaseStation::default(),
@@ -198,7 +214,7 @@ impl Bed {
     /// Nothing comes out before this time unless bytes are written, ns.
     #[must_use]
     pub fn next_output(&self) -> Option<u64> {
-        let relays = || self.firmware.iter().any(|(_, firmware)| firmware.is_relay(self.world.now()));
+        let relays = || self.robots.iter().any(|robot| robot.is_relay(self.world.now()));
         let silent = |due: &Due| matches!(due, Due::Exposed) || matches!(due, Due::AtRobot) && !relays();
         let frame = self.frame_ready();
         self.dues().filter(|(_, due)| !silent(due)).map(|(at, _)| at).chain([frame]).min()
@@ -263,9 +279,9 @@ impl Bed {
         if now >= self.faults_until {
             self.put_faults_into_force();
         }
-        for (robot, (_, firmware)) in self.firmware.iter_mut().enumerate() {
-            let wheels = firmware.wheels(now);
-            self.world.tell(robot, [wheels.left.speed(), wheels.right.speed()]);
+        for (index, robot) in self.robots.iter_mut().enumerate() {
+            let wheels = robot.wheels(now);
+            self.world.tell(index, [wheels.left.speed(), wheels.right.speed()]);
         }
         self.outputs.extend(self.world.take_contacts().into_iter().map(Output::Contact));
     }
@@ -274,7 +290,7 @@ impl Bed {
     fn put_faults_into_force(&mut self) {
         let now = self.world.now();
         let time = now - self.start;
-        for robot in 0..self.firmware.len() {
+        for robot in 0..self.robots.len() {
             self.world.set_grip(robot, [1.0; 2]);
             self.world.set_missing(robot, 0.0);
         }
@@ -282,6 +298,8 @@ impl Bed {
             self.world.place(robot, pose);
         }
         let (mut cuts, mut medium, mut intrusion) = (Cuts::default(), self.medium, None);
+        let ids: Vec<u8> = self.robots.iter().map(Robot::own_id).collect();
+        let mut switched: Vec<Switched> = ids.iter().map(|id| Switched::On(*id)).collect();
         for fault in self.faults.at(time) {
             match fault {
                 FaultKind::Slip { robots, grip } => robots.iter().for_each(|robot| self.world.set_grip(*robot, *grip)),
@@ -289,6 +307,19 @@ impl Bed {
                     robots.iter().for_each(|robot| self.world.set_missing(*robot, *share));
                 }
                 FaultKind::Silent { robots } => cuts.silent.extend(robots),
+                FaultKind::Off { robots } => {
+                    cuts.silent.extend(robots);
+                    switched.iter_mut().enumerate().filter(|(robot, _)| robots.contains(robot)).for_each(
+                        |(_, state)| {
+                            *state = Switched::Off;
+                        },
+                    );
+                }
+                FaultKind::Doubled { robot, like } => {
+                    if let (Some(state), Some(id)) = (switched.get_mut(*robot), ids.get(*like)) {
+                        *state = Switched::On(*id);
+                    }
+                }
                 FaultKind::Far { robots } => cuts.far.extend(robots),
                 FaultKind::Intruder(kind) => intrusion = Some(*kind),
                 FaultKind::Parted { robots } => cuts.parted.push(robots.iter().copied().collect()),
@@ -298,6 +329,10 @@ impl Bed {
                 | FaultKind::Covered { .. }
                 | FaultKind::Frames(_) => {}
             }
+        }
+        for (index, (robot, state)) in self.robots.iter_mut().zip(switched).enumerate() {
+            let wheels = self.world.wheels(index).copied().unwrap_or_default();
+            robot.switch(state, now, wheels);
         }
         self.air.cut(cuts);
         self.air.intrude(intrusion);
@@ -323,7 +358,7 @@ impl Bed {
 
     fn expose(&mut self) {
         let (middle, exposure) = (self.exposure_middle(), self.shutter.exposure);
-        let robots = 0..self.firmware.len();
+        let robots = 0..self.robots.len();
         // The middles of equal parts of the exposure.
         let instant = |part: usize| middle - exposure / 2 + exposure * (2 * part as u64 + 1) / (2 * INSTANTS as u64);
         let truth = |robot: usize, at: u64| self.world.truth(robot, at).unwrap_or_default();
@@ -360,23 +395,19 @@ impl Bed {
     fn report(&mut self, now: u64, robot: usize) {
         self.reports[robot] += TELEMETRY_ROUND;
         let wheels = self.world.wheels(robot).copied().unwrap_or_default();
-        let sensors = Sensors {
-            battery_mv: self.battery(now, robot),
-            steps: wheels.map(|wheel| wheel.steps),
-            lost_steps: wheels[0].lost + wheels[1].lost,
-            ranges: Ranges::new(&self.world.ranges(robot)),
-        };
+        let (battery_mv, ranges) = (self.battery(now, robot), Ranges::new(&self.world.ranges(robot)));
         let mut packet = Vec::new();
-        if let Some((_, firmware)) = self.firmware.get_mut(robot) {
-            firmware.report(now, sensors, &mut packet);
+        if let Some(robot) = self.robots.get_mut(robot) {
+            let (steps, lost_steps) = robot.counted(wheels);
+            robot.report(now, Sensors { battery_mv, steps, lost_steps, ranges }, &mut packet);
         }
         self.air.send(now, Station::Robot(robot), self.world.poses(), &packet.into(), true);
     }
 
     fn hear_at_robot(&mut self, now: u64) {
         let Some(flying) = self.air.pop_at_robot() else { return };
-        let Some((_, firmware)) = self.firmware.get_mut(flying.robot) else { return };
-        if let Some(relayed) = firmware.receive(now, &flying.packet, flying.signal_dbm) {
+        let Some(robot) = self.robots.get_mut(flying.robot) else { return };
+        if let Some(relayed) = robot.receive(now, &flying.packet, flying.signal_dbm) {
             self.relays += 1;
             let (robot, for_base, packet) = (flying.robot, relayed.for_base, relayed.packet.into());
             self.relayed.insert((now + relayed.after, self.relays), Waiting { robot, for_base, packet });

@@ -44,6 +44,18 @@ pub enum FaultKind {
         /// Whose.
         robots: Vec<usize>,
     },
+    /// These robots are switched off; at the end they are switched on again, and know nothing of before.
+    Off {
+        /// Which.
+        robots: Vec<usize>,
+    },
+    /// Somebody has given this robot the id of another one and switched it off and on.
+    Doubled {
+        /// Which.
+        robot: usize,
+        /// As whom it answers.
+        like: usize,
+    },
     /// These robots do not hear each other; everybody else hears them.
     Parted {
         /// Which.
@@ -84,6 +96,8 @@ pub enum Intrusion {
     Forged,
     /// Sends what the base station said half a second ago once more.
     Replayed,
+    /// Sends all that the base station said since the beginning once more, in its order, and then again.
+    Recorded,
     /// Spoils a bit of half of the base station's packets.
     Corrupted,
 }
@@ -114,10 +128,13 @@ impl FaultKind {
             Self::Carried { .. } => "carried",
             Self::Battery { .. } => "battery",
             Self::Silent { .. } => "silent",
+            Self::Off { .. } => "switched_off",
+            Self::Doubled { .. } => "doubled",
             Self::Parted { .. } => "parted",
             Self::Far { .. } => "far",
             Self::Intruder(Intrusion::Forged) => "forged",
             Self::Intruder(Intrusion::Replayed) => "replayed",
+            Self::Intruder(Intrusion::Recorded) => "recorded",
             Self::Intruder(Intrusion::Corrupted) => "corrupted",
             Self::Missed { .. } => "missed",
             Self::Loss { .. } => "loss",
@@ -148,6 +165,11 @@ impl Faults {
     /// Those in force at `time` (ns after the start).
     pub fn at(&self, time: u64) -> impl Iterator<Item = &FaultKind> {
         self.faults.iter().filter(move |fault| (fault.from..fault.to).contains(&time)).map(|fault| &fault.kind)
+    }
+
+    /// Whether there is any fault at any time that `is`.
+    pub(crate) fn any(&self, is: impl Fn(&FaultKind) -> bool) -> bool {
+        self.faults.iter().any(|fault| is(&fault.kind))
     }
 
     /// When something begins or ends next after `time`, ns after the start.

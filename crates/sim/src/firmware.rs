@@ -1,5 +1,7 @@
 //! The firmware of a robot: obeys commands while they are valid, reports, stops by itself.
 
+use crate::Random;
+use crate::greeting::{Greeting, Heard};
 use crate::relay::{Relay, Relayed};
 use trench_radio::{
     AgeMeter, COUNTER_TICK, Fault, Freshness, Key, MAX_RELAYS, Packet, PacketError, Payload, Ranges, Relaying,
@@ -42,6 +44,8 @@ pub struct Firmware {
     id: u8,
     key: Option<Key>,
     switched_on: u64,
+    /// With a key, until the base has welcomed it.
+    greeting: Option<Greeting>,
     freshness: Freshness,
     age: AgeMeter,
     relay: Relay,
@@ -59,11 +63,13 @@ pub struct Firmware {
 }
 
 impl Firmware {
-    /// Switched on at `now` (ns). With a key it obeys nobody without.
+    /// Switched on at `now` (ns). With a key it obeys nobody without, and the base only once that has answered a number
+    /// out of `nonces`.
     #[must_use]
-    pub fn new(id: u8, key: Option<Key>, now: u64) -> Self {
+    pub fn new(id: u8, key: Option<Key>, now: u64, nonces: Random) -> Self {
         Self {
             id,
+            greeting: key.is_some().then(|| Greeting::new(id, nonces)),
             key,
             switched_on: now,
             freshness: Freshness::default(),
@@ -95,9 +101,25 @@ impl Firmware {
                 return None;
             }
         };
-        if matches!(packet.payload, Payload::Telemetry(_)) {
+        if packet.payload.report().is_some() {
             return self.relay.pass_up(now, &packet, bytes, authentic);
         }
+        let newer_stop = match self.greeting.as_mut().map(|greeting| greeting.hear(&packet)) {
+            None => None,
+            Some(Heard::Nothing) => return None,
+            Some(Heard::Stop) => {
+                self.fault.set(Fault::EMERGENCY_STOP);
+                return None;
+            }
+            // The base says a stop again as long as it lasts: one that was recorded holds nobody for good.
+            Some(Heard::Welcome(newer_stop)) => {
+                self.greeting = None;
+                if newer_stop.is_none() {
+                    self.fault.0 &= !Fault::EMERGENCY_STOP.0;
+                }
+                newer_stop
+            }
+        };
         if let Err(stale) = self.freshness.accept(packet.counter, now, authentic) {
             if authentic && stale.last - stale.counter > REPLAYED {
                 self.intrusions.set(Fault::REPLAYED);
@@ -109,6 +131,9 @@ impl Firmware {
         (self.signal_dbm, self.last_relayed) = (signal_dbm, packet.relayed);
         self.received += 1;
         let age = self.age.age(packet.counter, now);
+        if let Some(counter) = newer_stop {
+            self.freshness.set(counter, now);
+        }
         self.hear_base(now, &packet.payload, age.saturating_sub(USUAL_AGE));
         self.relay.pass_down(now, &packet, bytes)
     }
@@ -138,7 +163,11 @@ impl Firmware {
                 self.fault.0 &= !Fault::EMERGENCY_STOP.0;
                 self.wheels = Wheels::STOP;
             }
-            Payload::EmergencyStop(_) | Payload::Reset(_) | Payload::Telemetry(_) => {}
+            Payload::EmergencyStop(_)
+            | Payload::Reset(_)
+            | Payload::Telemetry(_)
+            | Payload::Hello { .. }
+            | Payload::Welcome(_) => {}
         }
     }
 
@@ -190,7 +219,11 @@ impl Firmware {
         let relaying = if asks { Relaying::Anyone(MAX_RELAYS as u8) } else { Relaying::Direct };
         // A robot without a clock keeps the number of its starts instead: its counters never go back either.
         let counter = self.switched_on / COUNTER_TICK + self.sent;
-        let packet = Packet { relayed: 0, relaying, counter, payload: Payload::Telemetry(telemetry) };
+        let payload = match &mut self.greeting {
+            Some(greeting) => Payload::Hello { nonce: greeting.draw(), report: telemetry },
+            None => Payload::Telemetry(telemetry),
+        };
+        let packet = Packet { relayed: 0, relaying, counter, payload };
         packet.encode(self.key.as_ref(), out);
     }
 
@@ -204,7 +237,24 @@ impl Firmware {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_radio::{Commands, RobotSet, WheelTimer};
+    use trench_radio::{Commands, RobotSet, Welcome, WheelTimer};
+
+    /// The number that it draws for its next report.
+    fn hello(firmware: &mut Firmware, now_ms: u64, key: &Key) -> u64 {
+        let mut bytes = Vec::new();
+        firmware.report(now_ms * MILLISECOND, Sensors::default(), &mut bytes);
+        let Ok(Packet { payload: Payload::Hello { nonce, .. }, .. }) = Packet::decode(&bytes, Some(key)) else {
+            unreachable!("who knows no counter says hello");
+        };
+        nonce
+    }
+
+    fn has_stopped(firmware: &mut Firmware) -> bool {
+        let mut bytes = Vec::new();
+        firmware.report(9000 * MILLISECOND, Sensors::default(), &mut bytes);
+        let packet = Packet::decode(&bytes, None).unwrap();
+        packet.payload.report().is_some_and(|report| report.fault.has(Fault::EMERGENCY_STOP))
+    }
 
     fn forward() -> Wheels {
         Wheels { left: WheelTimer::from_speed(0.1), right: WheelTimer::from_speed(0.1) }
@@ -225,7 +275,7 @@ mod tests {
     #[test]
     fn stops_by_itself_when_the_validity_ends() {
         for (validity_ms, ends) in [(0, 0), (30, 30), (80, 80), (255, 80)] {
-            let mut firmware = Firmware::new(3, None, 0);
+            let mut firmware = Firmware::new(3, None, 0, Random::new(1, 0));
             send(&mut firmware, 1000, 1, drive(validity_ms), None);
             if ends > 0 {
                 assert_eq!(firmware.wheels((1000 + ends) * MILLISECOND - 1), forward(), "{validity_ms}");
@@ -236,7 +286,7 @@ mod tests {
 
     #[test]
     fn emergency_stop_is_sticky_until_reset_and_rest_follows_reset() {
-        let mut firmware = Firmware::new(3, None, 0);
+        let mut firmware = Firmware::new(3, None, 0, Random::new(1, 0));
         send(&mut firmware, 10, 1, drive(80), None);
         send(&mut firmware, 20, 2, Payload::EmergencyStop(RobotSet::ALL), None);
         send(&mut firmware, 30, 3, drive(80), None);
@@ -254,8 +304,9 @@ mod tests {
     fn forged_replayed_and_foreign_packets_do_not_move_it() {
         let key = Key::new([1; 16]);
         let check = |counter, sender: Option<&Key>, rejected, intrusion: Fault| {
-            let mut firmware = Firmware::new(3, Some(key.clone()), 0);
-            send(&mut firmware, 10, 500, drive(0), Some(&key));
+            let mut firmware = Firmware::new(3, Some(key.clone()), 0, Random::new(1, 0));
+            let welcome = Payload::Welcome(Welcome::new(&[(3, hello(&mut firmware, 5, &key))]));
+            send(&mut firmware, 10, 500, welcome, Some(&key));
             send(&mut firmware, 5000, counter, drive(80), sender);
             let moves = firmware.wheels(5001 * MILLISECOND) != Wheels::STOP;
             assert_eq!((moves, firmware.rejected()), (rejected == 0, rejected));
@@ -279,10 +330,52 @@ mod tests {
     }
 
     #[test]
+    fn it_obeys_who_says_its_number_back_and_nobody_before() {
+        let key = Key::new([1; 16]);
+        let now = 100;
+        let check = |answer: &dyn Fn(u64) -> Welcome, sealed: Option<&Key>, later_hellos: u64, obeys: bool| {
+            let mut firmware = Firmware::new(3, Some(key.clone()), 0, Random::new(1, 0));
+            send(&mut firmware, 1, 400, drive(80), Some(&key));
+            assert_eq!(firmware.wheels(2 * MILLISECOND), Wheels::STOP, "recorded, or not");
+            let nonce = hello(&mut firmware, 5, &key);
+            let others: Vec<u64> = (0..later_hellos).map(|_| hello(&mut firmware, 6, &key)).collect();
+            assert!(!others.contains(&nonce), "each hello has its own");
+            send(&mut firmware, now - 1, 500, Payload::Welcome(answer(nonce)), sealed);
+            send(&mut firmware, now, 501, drive(80), Some(&key));
+            assert_eq!(firmware.wheels(now * MILLISECOND) != Wheels::STOP, obeys);
+            send(&mut firmware, now + 100, 500, drive(80), Some(&key));
+            assert_eq!(firmware.wheels((now + 100) * MILLISECOND), Wheels::STOP, "not above the welcome's counter");
+        };
+        let right = |nonce| Welcome::new(&[(7, 1), (3, nonce)]);
+        check(&right, Some(&key), 0, true);
+        check(&right, Some(&key), 1, true);
+        check(&right, Some(&key), 2, false);
+        check(&right, None, 0, false);
+        check(&right, Some(&Key::new([2; 16])), 0, false);
+        check(&|nonce| Welcome::new(&[(3, nonce ^ 1)]), Some(&key), 0, false);
+        check(&|nonce| Welcome::new(&[(7, nonce)]), Some(&key), 0, false);
+    }
+
+    #[test]
+    fn a_stop_before_the_welcome_holds_if_it_is_newer_than_that() {
+        let key = Key::new([1; 16]);
+        for (counter, stays) in [(400, false), (600, true)] {
+            let mut firmware = Firmware::new(3, Some(key.clone()), 0, Random::new(1, 0));
+            let nonce = hello(&mut firmware, 5, &key);
+            send(&mut firmware, 10, counter, Payload::EmergencyStop(RobotSet::ALL), Some(&key));
+            assert!(has_stopped(&mut firmware), "stopping is safe");
+            send(&mut firmware, 20, 500, Payload::Welcome(Welcome::new(&[(3, nonce)])), Some(&key));
+            assert_eq!(has_stopped(&mut firmware), stays);
+            send(&mut firmware, 30, 601, drive(80), Some(&key));
+            assert_eq!(firmware.wheels(31 * MILLISECOND) == Wheels::STOP, stays);
+        }
+    }
+
+    #[test]
     fn packets_that_were_held_back_are_obeyed_for_less_or_not_at_all() {
         // How late (ms) beyond the first packet's way, and for how long it is obeyed after that, ms.
         for (late, obeyed) in [(0, 80), (19, 80), (50, 50), (120, 0), (5000, 0)] {
-            let mut firmware = Firmware::new(3, None, 0);
+            let mut firmware = Firmware::new(3, None, 0, Random::new(1, 0));
             send(&mut firmware, 0, 1000, drive(0), None);
             send(&mut firmware, 1000 + late, 1000 + 1000 * MILLISECOND / COUNTER_TICK, drive(80), None);
             let moves = |ms: u64| firmware.clone().wheels((1000 + late + ms) * MILLISECOND) != Wheels::STOP;
@@ -294,7 +387,7 @@ mod tests {
 
     #[test]
     fn reports_what_it_received() {
-        let mut firmware = Firmware::new(3, None, 0);
+        let mut firmware = Firmware::new(3, None, 0, Random::new(1, 0));
         for counter in [1, 2, 5, 9] {
             send(&mut firmware, counter * 30, counter, drive(80), None);
         }

@@ -8,25 +8,43 @@ use trench_radio::{COUNTER_TICK, Packet, Payload, WheelTimer, Wheels};
 /// How old what it replays is, ns.
 const REPLAY_AGE: u64 = 500_000_000;
 
+/// Packets that it can keep: more than half an hour.
+const MOST: usize = 1 << 16;
+
 /// Listens to the base station and speaks after it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Intruder {
     pub(crate) does: Option<Intrusion>,
     heard: VecDeque<(u64, Arc<[u8]>)>,
+    /// Whether it keeps all that the base station says, and what that is.
+    records: bool,
+    recorded: VecDeque<Arc<[u8]>>,
     count: usize,
 }
 
 impl Intruder {
+    /// `records`: whether it keeps all that the base station says.
+    pub(crate) fn new(records: bool) -> Self {
+        Self { records, ..Self::default() }
+    }
+
     /// What becomes of a packet of the base station, and what follows it.
     pub(crate) fn disturb(&mut self, now: u64, packet: &Arc<[u8]>) -> (Arc<[u8]>, Option<Arc<[u8]>>) {
         let untouched = Arc::clone(packet);
         self.count += 1;
+        if self.records && self.recorded.len() < MOST && self.does != Some(Intrusion::Recorded) {
+            self.recorded.push_back(Arc::clone(packet));
+        }
         match self.does {
             None => {
                 self.heard.clear();
                 (untouched, None)
             }
             Some(Intrusion::Forged) => (untouched, forged(packet)),
+            Some(Intrusion::Recorded) => {
+                self.recorded.rotate_left(1.min(self.recorded.len()));
+                (untouched, self.recorded.back().cloned())
+            }
             Some(Intrusion::Corrupted) => {
                 (if self.count.is_multiple_of(2) { self.spoilt(packet) } else { untouched }, None)
             }
@@ -100,6 +118,16 @@ mod tests {
         assert_eq!(intruder.disturb(REPLAY_AGE, &packet(7)).1, Some(old));
         intruder.does = None;
         assert_eq!(intruder.disturb(2 * REPLAY_AGE, &packet(8)), (packet(8), None));
+    }
+
+    #[test]
+    fn plays_a_record_from_the_beginning_round_and_round() {
+        let mut intruder = Intruder { records: true, ..Intruder::default() };
+        assert!((1..4).all(|counter| intruder.disturb(0, &packet(counter)).1.is_none()));
+        intruder.does = Some(Intrusion::Recorded);
+        for counter in [1, 2, 3, 1] {
+            assert_eq!(intruder.disturb(0, &packet(9)), (packet(9), Some(packet(counter))));
+        }
     }
 
     #[test]

@@ -15,6 +15,7 @@ pub mod camera;
 mod contact;
 mod fault;
 mod firmware;
+mod greeting;
 mod history;
 mod interference;
 mod intruder;
@@ -30,6 +31,7 @@ mod relay;
 mod serial_line;
 mod setup;
 mod stepper;
+mod switch;
 mod unicycle;
 mod world;
 

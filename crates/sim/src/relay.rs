@@ -1,8 +1,6 @@
 //! What a robot's firmware does for others: hears them, and passes on what they cannot hear.
 
-use trench_radio::{
-    Freshness, MAX_ROBOTS, Packet, Payload, RELAY_SLOT, RelayList, Relaying, RobotSet, relayed_once_more,
-};
+use trench_radio::{Freshness, MAX_ROBOTS, Packet, RELAY_SLOT, RelayList, Relaying, RobotSet, relayed_once_more};
 
 /// Whom it heard this long ago is a neighbour, and for this long it stays a relay, ns.
 const LATELY: u64 = 500_000_000;
@@ -45,7 +43,7 @@ impl Relay {
 
     /// A report of another robot.
     pub(crate) fn pass_up(&mut self, now: u64, packet: &Packet, bytes: &[u8], authentic: bool) -> Option<Relayed> {
-        let Payload::Telemetry(report) = packet.payload else { return None };
+        let report = packet.payload.report()?;
         let robot = usize::from(report.robot);
         if report.robot == self.id {
             return None;
@@ -78,7 +76,7 @@ impl Relay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_radio::{Commands, Telemetry, Wheels};
+    use trench_radio::{Commands, Payload, Telemetry, Wheels};
 
     /// What a relay hears: `relayed` times on its way already, and to be relayed as `relaying` says.
     fn heard(relayed: u8, relaying: Relaying, payload: Payload) -> (Packet, Vec<u8>) {

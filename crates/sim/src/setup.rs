@@ -42,6 +42,8 @@ pub struct BedSetup {
     pub baud: u32,
     /// The robots' key, if they have one.
     pub key: Option<Key>,
+    /// Of the numbers that robots with a key draw when they are switched on; another one in each process.
+    pub nonces: u64,
     /// What goes wrong.
     pub faults: Faults,
 }

@@ -35,6 +35,7 @@ fn setup(robots: &[Pose2]) -> BedSetup {
         },
         baud: 115_200,
         key: None,
+        nonces: 7,
         faults: Faults::default(),
     }
 }

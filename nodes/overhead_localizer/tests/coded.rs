@@ -7,7 +7,7 @@ use overhead_localizer::vision::coded::{CodeReader, CodedPad, DOTS, GREEN, MIDDL
 use overhead_localizer::vision::{Colour, ColourLimits, Detector, Expectation, Frame};
 use trench_config::ConfigError;
 use trench_config::params::{Source as Given, resolve};
-use trench_core::{Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source, Steady, Times};
+use trench_core::{Action, Event, Files, Level, NodeContext, NodeCore, Outbox, RosTime, Source, Steady, Times};
 use trench_msgs::Encode;
 use trench_msgs::msg::{RobotState, TeamState};
 use trench_msgs::sensor_msgs::Image;
@@ -179,6 +179,7 @@ fn node(more: &str) -> Result<Box<dyn NodeCore>, String> {
 #[test]
 fn a_coded_team_is_known_from_the_first_frame_on_however_it_is_carried() {
     let mut core = node("    pad.pattern: ssl_yellow\n").unwrap();
+    let mut said = Vec::new();
     let mut see = |sequence: u64, robots: &[(usize, [f64; 3], Pose2)]| -> TeamState {
         let stamp = RosTime(40_000_000 * sequence as i64);
         let data = picture(robots, [1.0; 3], sequence);
@@ -188,6 +189,11 @@ fn a_coded_team_is_known_from_the_first_frame_on_however_it_is_carried() {
         let (mut outbox, source) = (Outbox::default(), Source { gid: [1; 16], sequence });
         let at = Times { ros: stamp, steady: Steady(40_000_000 * sequence) };
         core.handle(at, Event::Message { port: 0, source, cdr: &image.to_cdr(), arrived: None }, &mut outbox);
+        let errors = outbox.actions.iter().filter_map(|action| match action {
+            Action::Log { level: Level::Error, text } => Some((sequence, text.clone())),
+            _ => None,
+        });
+        said.extend(errors);
         outbox.last(0).unwrap()
     };
     let check = |state: &TeamState, poses: [Pose2; 3]| {
@@ -214,9 +220,17 @@ fn a_coded_team_is_known_from_the_first_frame_on_however_it_is_carried() {
     assert_eq!(see(30, &without).robots[0].status, RobotState::STATUS_LOST);
     let put = [pose(0.6, 1.4, -1.0), poses[1], poses[0]];
     check(&see(31, &all(put)), put);
-    // Two pads with one code: neither is believed.
+    // Two pads with one code: neither is believed, and that is said once. The others are where they are.
     let twice = [(4, YELLOW, put[0]), (4, YELLOW, poses[2]), (9, YELLOW, put[1]), (2, YELLOW, put[2])];
-    assert_eq!(see(32, &twice).robots[0].status, RobotState::STATUS_PREDICTED);
+    for sequence in 32..36 {
+        let state = see(sequence, &twice);
+        let off = libm::hypot(state.robots[0].x - put[0].x, state.robots[0].y - put[0].y);
+        assert!(state.robots[0].status == RobotState::STATUS_PREDICTED && off < 1e-3, "off by {off} m");
+        assert!(state.robots[1..].iter().all(|robot| robot.status == RobotState::STATUS_TRACKED));
+    }
+    check(&see(36, &all(put)), put);
+    let of_codes: Vec<_> = said.iter().filter(|(_, text)| text.contains("two pads have the code 4")).collect();
+    assert!(matches!(of_codes[..], [(32, _)]), "{said:?}");
 }
 
 #[test]

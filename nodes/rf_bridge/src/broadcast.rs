@@ -48,6 +48,10 @@ impl RfBridge {
         let transport = usual + self.tuning.radio_delay;
         let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
         for robot in &mut self.robots {
+            // Whose place is known is not who drives: both stand.
+            if robot.twins.are_two(at.steady) {
+                robot.halt();
+            }
             let slot = &mut commands.wheels[usize::from(robot.id)];
             match robot.order(at.steady, transport, &self.tuning) {
                 Order::Drive(wheels, left) => {

@@ -7,6 +7,7 @@ use crate::robot::Robot;
 use crate::run::Run;
 use crate::settings::Tuning;
 use crate::stop::EmergencyStop;
+use crate::welcome::Hellos;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Event, Health, Interface, Level, Master, NodeCore, Refusals, Sink, Source, Steady, Times};
 use trench_msgs::Message;
@@ -15,6 +16,10 @@ use trench_msgs::geometry_msgs::{Twist, TwistStamped};
 use trench_msgs::msg::{Identify, RunState};
 use trench_msgs::std_msgs::Bool;
 use trench_radio::{ErrorCounts, RelayList, StreamDecoder};
+
+/// What that means, and the remedy.
+pub(crate) const NO_KEY: &str = "anybody on the channel can drive the robots; make one with `(umask 077; openssl rand \
+    -hex 16 > key)` and give it to bridge and robots";
 
 /// Between two looks at how things are, s.
 const LOOK: f64 = 0.1;
@@ -33,6 +38,7 @@ pub struct RfBridge {
     pub(crate) channel: Channel,
     /// Who passed the last packet on.
     pub(crate) relays: RelayList,
+    pub(crate) hellos: Hellos,
     pub(crate) open: bool,
     pub(crate) run: Run,
     /// Who writes /identify.
@@ -112,6 +118,9 @@ impl RfBridge {
         if self.repeat_at.is_some_and(|due| due <= at.steady) {
             self.repeat(at, sink);
         }
+        if self.hellos.due.is_some_and(|due| due <= at.steady) {
+            self.welcome(at, sink);
+        }
         if self.gathered_at.is_some_and(|due| due <= at.steady) || self.heartbeat_at <= at.steady {
             self.broadcast(at, sink);
         }
@@ -151,6 +160,9 @@ impl NodeCore for RfBridge {
         match event {
             Event::Started => {
                 self.downlink.start(at);
+                if self.downlink.key().is_none() {
+                    sink.log(Level::Warn, &format!("key_file names no key: {NO_KEY}"));
+                }
                 self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
                 if self.stop.active() {
                     self.begin_stop(at, sink);
@@ -188,7 +200,7 @@ impl NodeCore for RfBridge {
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        [Some(self.heartbeat_at), self.gathered_at, self.repeat_at].into_iter().flatten().min()
+        [Some(self.heartbeat_at), self.gathered_at, self.repeat_at, self.hellos.due].into_iter().flatten().min()
     }
 
     fn set_parameters(&mut self, parameters: &Parameters) -> Result<(), ConfigError> {

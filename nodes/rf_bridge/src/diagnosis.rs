@@ -1,6 +1,6 @@
 //! What the bridge says of itself on /diagnostics.
 
-use crate::core::RfBridge;
+use crate::core::{NO_KEY, RfBridge};
 use crate::robot::Robot;
 use trench_core::{Condition, Steady};
 use trench_radio::Fault;
@@ -30,6 +30,8 @@ impl RfBridge {
         let relays = self.robots.iter().filter(|robot| self.relays.place(robot.id).is_some());
         let relays: Vec<&str> = relays.map(|robot| robot.name.as_str()).collect();
         self.health.value("links", "relays", relays.join(", "));
+        let key = if self.downlink.key().is_some() { "in force" } else { NO_KEY };
+        self.health.value("links", "key", key);
         self.refusals.settle(now, &mut self.health);
     }
 
@@ -57,6 +59,8 @@ impl RfBridge {
         let reports =
             |robot: &Robot, fault: Fault| robot.monitor.report().is_some_and(|report| report.fault.0 & fault.0 != 0);
         let problems = [
+            ("two radios answer as", self.named(|robot| robot.twins.are_two(now))),
+            ("switched on anew", self.named(|robot| robot.monitor.is_anew(now))),
             ("not heard", self.named(|robot| !robot.monitor.up(now, UNHEARD.min(self.tuning.silence)))),
             ("low battery", self.named(|robot| reports(robot, Fault::LOW_BATTERY))),
             ("missed steps", self.named(|robot| reports(robot, Fault::MISSED_STEPS))),
@@ -65,9 +69,15 @@ impl RfBridge {
             ("replayed packets at", self.named(|robot| reports(robot, Fault::REPLAYED))),
         ];
         let named = problems.iter().filter(|(_, robots)| !robots.is_empty());
-        let texts: Vec<String> = named.map(|(problem, robots)| format!("{problem}: {robots}")).collect();
+        let text = |(problem, robots): &(&str, String)| match problem.ends_with(" as") {
+            true => format!("{problem} {robots}"),
+            false => format!("{problem}: {robots}"),
+        };
+        let texts: Vec<String> = named.map(text).collect();
         match texts.as_slice() {
             [] => (Condition::Ok, "all robots are heard".to_owned()),
+            // Of an error the next message tells at once; and such a robot is lost to the team.
+            texts if self.robots.iter().any(|robot| robot.twins.are_two(now)) => (Condition::Error, texts.join("; ")),
             texts => (Condition::Warn, texts.join("; ")),
         }
     }

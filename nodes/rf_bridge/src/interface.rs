@@ -7,6 +7,7 @@ use crate::robot::Robot;
 use crate::run::Run;
 use crate::settings::{Settings, descriptors};
 use crate::stop::EmergencyStop;
+use crate::welcome::Hellos;
 use trench_config::Parameters;
 use trench_core::{
     Advertise, ByteStream, Files, Health, Interface, Local, Master, NodeContext, NodeCore, NodeDescription, Qos,
@@ -60,6 +61,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         errors: ErrorCounts::default(),
         channel: Channel::default(),
         relays: RelayList::default(),
+        hellos: Hellos::default(),
         open: false,
         run: Run::default(),
         localizer: Master::default(),

@@ -8,6 +8,7 @@
 //! | the turns that tell robots apart, while nothing else may move | `identify` |
 //! | relays for robots out of reach | `relays` |
 //! | emergency stop and reset | `stop`, `stopping` |
+//! | robots that were switched on, two radios of one id | `welcome`, `twins` |
 //! | telemetry to topics | `uplink`, `report`, `monitor`, `odometry` |
 //!
 //! Architecture invariant: no command leaves this node older than its age limits (invariant 8): what is old, broken or
@@ -31,7 +32,9 @@ mod run;
 mod settings;
 mod stop;
 mod stopping;
+mod twins;
 mod uplink;
+mod welcome;
 
 pub use crate::core::RfBridge;
 pub use interface::description;

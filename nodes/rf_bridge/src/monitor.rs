@@ -20,6 +20,9 @@ const LATE: f64 = 0.04;
 /// Reports missed one after the other say that much is lost; more of them, that the robot is gone, which its link says.
 const IN_A_ROW: u64 = 2;
 
+/// That a robot was switched off and on is told for so long, s.
+const NEWS: f64 = 2.0;
+
 /// Weight of a new round trip in the filtered one.
 const SMOOTHING: f64 = 0.2;
 
@@ -32,6 +35,8 @@ pub(crate) struct Monitor {
     window: VecDeque<(Steady, u16, u64)>,
     round_trip: f64,
     received: u64,
+    /// When it said first what only a robot says that was switched on since its last report.
+    anew: Option<Steady>,
     /// Reports that were due since the last one.
     missed: u64,
     pub(crate) rejected: u64,
@@ -59,6 +64,10 @@ impl Monitor {
     pub(crate) fn update(&mut self, at: Times, report: Telemetry, relayed: u8, sent: Option<Sent>) -> (u64, u64) {
         self.received += 1;
         self.missed = 0;
+        if self.report().is_some_and(|last| switched_on_between(last, &report)) {
+            self.anew = Some(at.steady);
+            self.window.clear();
+        }
         self.heard = Some(Heard { at: at.steady, ros: at.ros, report, relayed });
         let before = self.window.back().copied();
         self.window.extend(sent.map(|sent| (at.steady, report.received, sent.before)));
@@ -86,6 +95,11 @@ impl Monitor {
         let more = missed.saturating_sub(self.missed);
         self.missed += more;
         more
+    }
+
+    /// Whether it was switched off and on a moment ago.
+    pub(crate) fn is_anew(&self, now: Steady) -> bool {
+        self.anew.is_some_and(|at| now.seconds_since(at) < NEWS)
     }
 
     /// The last report.
@@ -134,6 +148,12 @@ impl Monitor {
             frames_rejected: self.rejected,
         }
     }
+}
+
+/// Whether a robot was switched off and on between two of its reports. The time since it was switched on wraps after 49
+/// days.
+fn switched_on_between(last: &Telemetry, next: &Telemetry) -> bool {
+    next.uptime_ms.wrapping_sub(last.uptime_ms) > u32::MAX / 2
 }
 
 #[cfg(test)]

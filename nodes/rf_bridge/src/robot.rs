@@ -6,6 +6,7 @@ use crate::monitor::Monitor;
 use crate::odometry::WheelOdometry;
 use crate::relays::Reach;
 use crate::settings::Tuning;
+use crate::twins::Twins;
 use trench_core::{Master, RosTime, Source, Steady, Times};
 use trench_msgs::geometry_msgs::Twist;
 use trench_radio::{WheelTimer, Wheels};
@@ -58,6 +59,7 @@ pub(crate) enum Order {
 pub(crate) struct Robot {
     pub(crate) name: String,
     pub(crate) id: u8,
+    pub(crate) twins: Twins,
     pub(crate) monitor: Monitor,
     pub(crate) odometry: WheelOdometry,
     pub(crate) reach: Reach,
@@ -78,6 +80,7 @@ impl Robot {
         Self {
             name,
             id,
+            twins: Twins::default(),
             monitor: Monitor::default(),
             odometry: WheelOdometry::default(),
             reach: Reach::default(),

@@ -34,22 +34,41 @@ impl RfBridge {
             Err(error) => return self.errors.count(error.name()),
         };
         let authenticated = key.is_some();
-        let Payload::Telemetry(telemetry) = packet.payload else { return self.errors.count("not_telemetry") };
+        let Some(telemetry) = packet.payload.report().copied() else { return self.errors.count("not_telemetry") };
         let Some(index) = self.robots.iter().position(|robot| robot.id == telemetry.robot) else {
             return self.errors.count("unknown_robot");
         };
-        let sent = self.downlink.sent(telemetry.last_counter);
+        // Who has been welcomed by nobody names no packet of ours.
+        let nonce = if let Payload::Hello { nonce, .. } = packet.payload { Some(nonce) } else { None };
+        let sent = self.downlink.sent(telemetry.last_counter).filter(|_| nonce.is_none());
         let robot = &mut self.robots[index];
-        if robot.monitor.accept(packet.counter, at.steady, authenticated).is_err() {
-            return;
+        let (were_two, was_anew) = (robot.twins.are_two(at.steady), robot.monitor.is_anew(at.steady));
+        let names = sent.filter(|_| telemetry.last_age_ms < u8::MAX).map(|sent| sent.before);
+        robot.twins.hear(at.steady, packet.counter, names, &telemetry);
+        let are_two = robot.twins.are_two(at.steady);
+        let new = robot.monitor.accept(packet.counter, at.steady, authenticated).is_ok();
+        let mut told = are_two != were_two;
+        if new {
+            robot.reach.heard(at.steady, packet.relayed);
+            let (received, lost) = robot.monitor.update(at, telemetry, packet.relayed, sent);
+            told |= robot.monitor.is_anew(at.steady) != was_anew;
+            if !are_two {
+                robot.odometry.update(&telemetry, self.tuning.half_axle);
+                told |= self.channel.hear(received + 1, lost);
+            }
         }
-        robot.reach.heard(at.steady, packet.relayed);
-        let (received, lost) = robot.monitor.update(at, telemetry, packet.relayed, sent);
-        robot.odometry.update(&telemetry, self.tuning.half_axle);
-        if self.channel.hear(received + 1, lost) {
+        if told {
             self.diagnose(at.steady);
         }
-        self.report(at, index, &telemetry, sink);
+        if let Some(nonce) = nonce {
+            self.greet(at, telemetry.robot, nonce, new, sink);
+        }
+        match (new, are_two) {
+            (true, false) => self.report(at, index, &telemetry, sink),
+            // Whose steps and ranges they are nobody knows.
+            (true, true) => self.tell_link(at, index, sink),
+            (false, _) => {}
+        }
     }
 
     pub(crate) fn report(&self, at: Times, index: usize, telemetry: &Telemetry, sink: &mut dyn Sink) {
@@ -70,7 +89,8 @@ impl RfBridge {
         let neighbours = report.map(|report| report.neighbours).unwrap_or_default();
         let heard = self.robots.iter().filter(|other| neighbours.contains(other.id));
         let hears = heard.map(|other| other.name.clone()).collect();
-        let status = robot.monitor.status(at, &robot.name, hears, self.tuning.silence);
+        let mut status = robot.monitor.status(at, &robot.name, hears, self.tuning.silence);
+        status.up &= !robot.twins.are_two(at.steady);
         sink.publish(self.first_port(index) + LINK, &status);
     }
 

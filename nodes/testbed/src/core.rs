@@ -24,6 +24,8 @@ pub struct Testbed {
     pub(crate) settings: Settings,
     /// The world, from the node's start on.
     bed: Option<Bed>,
+    /// Where the numbers come from that its robots draw: another in each process, but in lock-step.
+    nonces: u64,
     /// One a camera; none if nothing is rendered.
     pub(crate) renderers: Vec<Renderer>,
     pub(crate) random: Random,
@@ -55,6 +57,7 @@ impl Testbed {
             random: Random::new(settings.bed.seed, 2),
             renderers,
             bed: None,
+            nonces: context.seed,
             last_frame: None,
             pictures: VecDeque::new(),
             published: 0,
@@ -76,6 +79,7 @@ impl Testbed {
     fn start(&mut self, at: Times, sink: &mut dyn Sink) {
         let mut setup = self.settings.bed.clone();
         setup.start = at.steady.0;
+        setup.nonces = self.nonces;
         sink.log(Level::Info, &format!("{} robots, base station at {}", setup.robots.len(), self.settings.link));
         self.bed = Some(Bed::new(setup));
     }

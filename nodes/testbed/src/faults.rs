@@ -11,7 +11,7 @@ use trench_optics::Pose2;
 use trench_sim::{Fault, FaultKind, Faults, FrameFault, Intrusion};
 
 /// Kinds with a name in files.
-const KINDS: [&str; 18] = [
+const KINDS: [&str; 21] = [
     "slip",
     "carried",
     "battery",
@@ -30,6 +30,9 @@ const KINDS: [&str; 18] = [
     "replayed",
     "corrupted",
     "missed",
+    "switched_off",
+    "doubled",
+    "recorded",
 ];
 
 /// Reads the text of such a file; `file` names it in errors.
@@ -69,6 +72,12 @@ fn fault(map: &Map<'_>, names: &[String]) -> Result<Fault, ConfigError> {
         "forged" => FaultKind::Intruder(Intrusion::Forged),
         "replayed" => FaultKind::Intruder(Intrusion::Replayed),
         "corrupted" => FaultKind::Intruder(Intrusion::Corrupted),
+        "recorded" => FaultKind::Intruder(Intrusion::Recorded),
+        "switched_off" => FaultKind::Off { robots: robots(map, names)? },
+        "doubled" => {
+            let (robot, like) = (map.str("robot")?, map.str("like")?);
+            FaultKind::Doubled { robot: index(map, "robot", robot, names)?, like: index(map, "like", like, names)? }
+        }
         "missed" => FaultKind::Missed { robots: robots(map, names)?, share: share(map, "share")? },
         "loss" => FaultKind::Loss { loss: share(map, "loss")? },
         "covered" => FaultKind::Covered { robots: robots(map, names)? },
@@ -143,6 +152,9 @@ mod tests {
             ("replayed", ""),
             ("corrupted", ""),
             ("missed", "robots: [robot1], share: 0.2"),
+            ("switched_off", "robots: [robot1]"),
+            ("doubled", "robot: robot1, like: robot2"),
+            ("recorded", ""),
         ];
         assert_eq!(rest.map(|(kind, _)| kind), KINDS);
         for (kind, rest) in rest {

@@ -171,6 +171,7 @@ fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigErr
         laser: laser(parameters)?,
         baud: u32::try_from(parameters.usize("serial.baud")?).unwrap_or(u32::MAX),
         key,
+        nonces: seed,
         faults,
     })
 }
