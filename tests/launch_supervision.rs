@@ -147,6 +147,14 @@ fn a_crash_loop_is_bounded_and_reported() {
     assert!(log.contains("ended 5 times within 1 s of its start: not starting it again"), "{log}");
 }
 
+#[test]
+fn a_crash_loop_of_lives_that_are_not_short_is_bounded_and_reported_too() {
+    let (code, _, log) = run("- node: {exec: sh, respawn: \"true\", args: \"-c 'trap : INT; sleep 1.1; exit 1'\"}\n");
+    assert_eq!(code, Some(1), "{log}");
+    assert_eq!(log.matches("process started").count(), 10, "{log}");
+    assert!(log.contains("ended 10 times within 60 s: not starting it again"), "{log}");
+}
+
 /// Starts a launch of a node with a program of this name, which does what `script` says, beside a sleeper of three seconds.
 fn run_beside_a_sleeper(name: &str, script: &str, more: &str) -> (Option<i32>, String) {
     let programs = tempfile::tempdir().unwrap();

@@ -12,6 +12,11 @@ BASE, GATE, RADIO, ZENOH = "base", "gate", "radio", "zenoh"
 # How the base station's router joins the radio's over a slow link (docs/hosts.md): little between its queues and the wire.
 SLOW = 'transport/link/tx/batch_size=600;connect/endpoints=["tcp/10.77.0.2:7447#so_sndbuf=1"]'
 INTERFACE = "eth0"
+# Of TCP on every host, as docs/hosts.md has it for Zenoh.
+SETTINGS = {
+    "tcp_congestion_control": "reno", "tcp_rto_max_ms": 1000, "tcp_rto_min_us": 20000, "tcp_timestamps": 0, "tcp_frto": 0,
+    "tcp_thin_linear_timeouts": 1,
+}
 
 
 class Hosts:
@@ -26,8 +31,8 @@ class Hosts:
             for name in self.names:
                 ip("netns", "add", self.namespace(name))
                 ip("-n", self.namespace(name), "link", "set", "lo", "up")
-                # As docs/hosts.md has it for Zenoh; older kernels do not know all.
-                for setting, value in (("tcp_rto_max_ms", 1000), ("tcp_thin_linear_timeouts", 1)):
+                # Older kernels do not know all.
+                for setting, value in SETTINGS.items():
                     write = f"f=/proc/sys/net/ipv4/{setting}; [ ! -e $f ] || echo {value} > $f"
                     subprocess.run([*self.command(name), "sh", "-c", write], check=True)
             if kind != ZENOH:

@@ -7,6 +7,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+import beside
 import wheels
 from bag import NEAR, Run, Series
 from hosts import BASE
@@ -29,6 +30,8 @@ LATELY, RESTS = 0.5, 0.005
 LIMITS = (0.31, 5.0)
 # m, between the middles of two robots that touch, and s, within which one that is carried to touch somebody does.
 TOUCH, PUT = 0.16, 0.2
+# What the test bed says of two robots; else it is `obstacle 3` or `west edge` that is touched.
+ROBOTS_TOUCH = re.compile(r" touches robot\d+$")
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
 # s, the longest gap in the bag.
@@ -96,6 +99,8 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         return verdict
     if fault.get("touches") and bag.nearest(fault["touches"], began, began + PUT) > TOUCH:
         verdict.problems.append(f"{fault['touches']} touched nobody")
+    if fault.get("rounds") and (room := beside.room(bag, run, began, ended)) > beside.NEAR:
+        verdict.problems.append(f"no robot went round an obstacle: {room:.2f} m of room")
     diagnose(bag, fault, began, evidence, verdict)
     stopped = sorted(bag.truth) if fault.get("stops") or fault.get("ends") else fault.get("halts", [])
     resting = [robot for robot in stopped if not any(moves(state) for _, state in bag.truth[robot].between(began - 1.0, began))]
@@ -307,9 +312,13 @@ def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
 
 
 def contacts(bag: Run, windows: list) -> list[str]:
-    """Bodies that touched, whenever that was, but for a robot that was carried to touch another one."""
+    """Bodies that touched, whenever that was, robots, obstacles and edges, but for a robot that was carried to touch another one."""
     put = [began for fault, began, _ in windows if fault.get("touches")]
-    return [f"contact: {text}" for at, text in bag.contacts if not any(began <= at <= began + PUT for began in put)][:1]
+
+    def is_told(at: float, text: str) -> bool:
+        return ROBOTS_TOUCH.search(text) is not None and any(began <= at <= began + PUT for began in put)
+
+    return [f"contact: {text}" for at, text in bag.contacts if not is_told(at, text)][:1]
 
 
 # A line of the launcher's own about the end of a process: its label, how it ended, its pid, and with what.

@@ -4,13 +4,17 @@ usage: python -m unittest judge_test, in this folder and the environment of scri
 """
 
 import binascii
+import json
 import struct
 import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import judge
+import matrix
+import recovery
 from bag import Run, Series
 from motion import FRAME
 from wheels import PIECE, SPEED_TIMES_TIMER
@@ -91,6 +95,25 @@ class Judged(unittest.TestCase):
         self.bag.contacts = [(BEGAN + 0.1, "robot1 touches robot2")]
         self.assertIn("contact", self.problems())
         self.assertNotIn("contact", self.problems({"touches": "robot1"}))
+
+    def test_contacts_with_obstacles_and_edges_count_too(self):
+        for thing in ("obstacle 3", "west edge"):
+            self.bag.contacts = [(BEGAN + 0.1, f"robot1 touches {thing}")]
+            self.assertIn(f"contact: robot1 touches {thing}", self.problems())
+            self.assertIn(f"contact: robot1 touches {thing}", self.problems({"touches": "robot1"}))
+
+    def test_a_contact_of_the_bag_is_what_the_test_bed_says(self):
+        stamp = SimpleNamespace(sec=int(T0), nanosec=0)
+        message = SimpleNamespace(header=SimpleNamespace(stamp=stamp), status=[SimpleNamespace(message="robot1 touches obstacle 3")])
+        self.bag._take("/ground_truth/contacts", T0, message)
+        self.assertIn("contact: robot1 touches obstacle 3", self.problems())
+
+    def test_robots_must_be_beside_obstacles_where_the_matrix_says_so(self):
+        self.bag.truth["robot1"].values = [(0.74, 0.478, *state[2:]) for state in self.bag.truth["robot1"].values]
+        run = {"arguments": {"duration": "30.0", "obstacles": "tests/faults/obstacles.yaml"}}
+        self.assertNotIn("went round an obstacle", self.problems({"rounds": True}, run))
+        self.bag.truth["robot1"].values = [(0.74, 0.40, *state[2:]) for state in self.bag.truth["robot1"].values]
+        self.assertIn("no robot went round an obstacle: 0.09 m of room", self.problems({"rounds": True}, run))
 
     def test_nobody_but_the_victim_may_end(self):
         self.assertIn("rf_bridge-3 on base ended too: died signal: 9 (SIGKILL)", self.problems(logs={"base": LOG + OPERATOR}))
@@ -175,6 +198,18 @@ class Judged(unittest.TestCase):
         self.assertEqual(self.problems({"retargets": "robot4"}), "")
         self.bag.assignments.values[1] = behind
         self.assertIn("robot4 followed 'robot1' before, 'robot1' meanwhile", self.problems({"retargets": "robot4"}))
+
+
+class Pages(unittest.TestCase):
+    """Pages of the documentation that are made of results."""
+
+    def test_the_benchmarks_say_what_the_results_of_the_matrix_say(self):
+        docs = matrix.ROOT / "docs"
+        told = [json.loads(line) for line in (docs / "faults.jsonl").read_text(encoding="utf-8").splitlines()]
+        rows = recovery.rows(told)
+        self.assertIn("| rf_bridge (kill-bridge) |", rows)
+        page = (docs / "BENCHMARKS.md").read_text(encoding="utf-8")
+        self.assertIn(recovery.BEGIN + recovery.HEAD + rows + recovery.END, page)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import history
+import recovery
 from judge import REPORTERS
 
 HEAD = """# Faults
@@ -19,10 +20,11 @@ the worst of all seeds that were run:
   that is whole and has at most a second less (and a pause of its recorder). Each speed
   that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
   old commands, and nobody else's;
-- in seventeen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
+- in sixteen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
   against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
-  died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; where nobody can know of it, why;
+  died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; *(log)*: a node's word on its
+  standard error, where it has no way to others; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned, which moved before, stand from 0.25 s of old information (0.5 s without goals or
   obstacles), a frame and the time to brake, until the fault is over;
 - where nothing keeps robots from driving (lost packets that others make good for, voices that are refused), none stands for longer than the
@@ -57,6 +59,7 @@ def write(runs: list[dict], results: Path, page: Path) -> None:
             unknown = f"| {fault['name']} | {run['name']} | | | | | | not run | | - |"
             lines.append(row(fault, run, met, failed_beside, stamp(alone)) if met else unknown)
     page.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+    recovery.write(told, page.with_name("BENCHMARKS.md"))
 
 
 def stamp(documents: list[dict]) -> str:
@@ -72,7 +75,7 @@ def of(fault: dict, documents: list[dict]) -> list[dict]:
 
 def row(fault: dict, run: dict, met: list[dict], failed_beside: list[dict], stamp: str) -> str:
     """What came of a fault in all runs in which it was met."""
-    by = f" ({fault['says']})" if fault.get("says") in REPORTERS else ""
+    by = f" ({fault['says']})" if fault.get("says") in REPORTERS else " (log)" if "warns" in fault else ""
     says = worst(met, "diagnosed") + by if "unnamed" not in fault else f"none: {fault['unnamed']}"
     failed = [told for told in met if told["problems"]]
     notes = [fault["note"]] if "note" in fault else []

@@ -198,7 +198,7 @@ impl Topics {
                     });
                 }
             }
-            GraphChange::Readers { .. } => {}
+            GraphChange::Readers { .. } | GraphChange::Router { .. } => {}
         }
     }
 

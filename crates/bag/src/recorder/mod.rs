@@ -16,15 +16,18 @@ use topics::subscription;
 use trench_config::params::USE_SIM_TIME;
 use trench_config::{ConfigError, ParameterDescriptor, Parameters};
 use trench_core::{
-    Discovered, Durability, Event, Files, Interface, Level, NodeContext, NodeCore, NodeDescription, Sink,
+    Advertise, Condition, Discovered, Durability, Event, Files, Health, Interface, Level, Local, NodeContext, NodeCore,
+    NodeDescription, Qos, Sink, StartError, Steady, Subscribe, Times, resolve_name,
 };
-use trench_core::{Qos, StartError, Steady, Subscribe, Times};
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
 
 /// How often what was heard is written, s. A recorder that woke for each of a thousand messages a second would take several
 /// per cent of a core; images, which are few and large, wake it.
 const BATCH: f64 = 0.05;
 /// The largest file to ask for, bytes.
 const MOST: f64 = 1e15;
+/// The publication of /diagnostics.
+const DIAGNOSTICS: usize = 0;
 /// The exit code when a recording ended early.
 const FAILED: u8 = 1;
 
@@ -71,7 +74,7 @@ fn parameters() -> Vec<ParameterDescriptor> {
     descriptors
 }
 
-fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
+fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let output = parameters.str("output")?;
     if output.is_empty() {
         return Err(parameters.error("output", "is empty", "name the new bag's folder").into());
@@ -89,7 +92,8 @@ fn build(_: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Result<Box<
         .map_err(|error| parameters.error("output", error.to_string(), "name a new folder on a disk with space"))?;
     Ok(Box::new(Recorder {
         ids: vec![None; subscriptions.len()],
-        interface: Interface { subscriptions, ..Interface::default() },
+        interface: Interface { subscriptions, publications: vec![diagnostics()], ..Interface::default() },
+        health: Health::new(resolve_name("~", &context.namespace, &context.name)),
         selection,
         images: parameters.bool("all")?,
         notes: Vec::new(),
@@ -130,8 +134,14 @@ fn options(parameters: &Parameters, heard: &[Subscribe]) -> Result<WriteOptions,
     })
 }
 
+/// Where the recorder says why it ends, and nothing before: what is recorded is what the run says.
+fn diagnostics() -> Advertise {
+    Advertise::of::<DiagnosticArray>("/diagnostics", Qos::RELIABLE, Local::NetworkOnly)
+}
+
 struct Recorder {
     interface: Interface,
+    health: Health,
     /// The bag's topic of each subscription, once it was heard.
     ids: Vec<Option<TopicId>>,
     selection: Selection,
@@ -185,6 +195,9 @@ impl NodeCore for Recorder {
         };
         if let Err(error) = done {
             sink.log(Level::Fatal, &error.to_string());
+            // Before what may take long on such a disk.
+            self.health.set("recording", Condition::Error, error.to_string());
+            self.health.publish(at, DIAGNOSTICS, sink);
             self.finish(sink, false);
             sink.exit(FAILED);
         }

@@ -195,15 +195,15 @@ impl BagWriter {
         self.flush()
     }
 
-    /// Closes the open chunk if its first message is older than [`WriteOptions::flush_after`]. To be called several
-    /// times a second while no messages come.
+    /// Closes the open chunk if its first message is older than [`WriteOptions::flush_after`]; else looks whether the disk has
+    /// room, so that a disk that others fill is noticed at once. To be called several times a second, messages or not.
     ///
     /// # Errors
     /// As [`BagWriter::write`].
     pub fn flush_if_due(&mut self) -> Result<(), BagError> {
         match self.pending_since {
             Some(since) if since.elapsed() >= self.options.flush_after => self.flush(),
-            _ => Ok(()),
+            _ => self.check_disk(0),
         }
     }
 

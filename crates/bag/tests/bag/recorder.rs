@@ -5,6 +5,7 @@ use trench_bag::{BagReader, recorder};
 use trench_config::{ConfigError, Origin, ParameterValue, Parameters};
 use trench_core::arguments::process_parameters;
 use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RosTime, Source, StartError, Steady, Times};
+use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::RunState;
 use trench_msgs::{Encode, std_msgs};
 
@@ -25,7 +26,8 @@ fn build(output: &str, topics: &[&str]) -> Result<Box<dyn NodeCore>, StartError>
     parameters.insert("output", ParameterValue::String(output.to_owned()), Origin::default());
     let topics = topics.iter().map(|&topic| topic.to_owned()).collect();
     parameters.insert("topics", ParameterValue::StringArray(topics), Origin::default());
-    (description.build)(&NodeContext::default(), &parameters, &NoFiles)
+    let context = NodeContext { namespace: "/".to_owned(), name: "recorder".to_owned(), ..NodeContext::default() };
+    (description.build)(&context, &parameters, &NoFiles)
 }
 
 fn at(milliseconds: u64) -> Times {
@@ -63,6 +65,23 @@ fn what_is_heard_is_in_the_bag() {
     assert_eq!((found["/stop"].log_time, found["/stop"].sequence), (1_003_000_000, 41));
     assert_eq!(found["/run_state"].log_time, 1_005_000_000);
     assert!(read.is_sorted_by_key(|message| message.log_time));
+}
+
+#[test]
+fn a_recording_that_cannot_go_on_is_told_with_its_bag_and_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("gone");
+    let mut core = build(path.to_str().unwrap(), &["/goals"]).unwrap();
+    let mut sink = Outbox::default();
+    core.handle(at(0), Event::Started, &mut sink);
+    core.handle(at(50), Event::Wakeup, &mut sink);
+    assert!(sink.published::<DiagnosticArray>(0).is_empty(), "while all is well it says nothing");
+    std::fs::remove_dir_all(&path).unwrap();
+    core.handle(at(100), Event::Wakeup, &mut sink);
+    let told = sink.published::<DiagnosticArray>(0).pop().unwrap().status.pop().unwrap();
+    assert_eq!((told.level, told.name.as_str()), (2, "/recorder: recording"));
+    assert!(told.message.starts_with(&format!("{}: ", path.display())), "{}", told.message);
+    assert!(sink.actions.iter().any(|action| matches!(action, Action::Exit(1))), "{:?}", sink.actions);
 }
 
 #[test]

@@ -105,6 +105,15 @@ fn a_full_disk_ends_the_recording_and_leaves_a_readable_bag() {
 }
 
 #[test]
+fn a_disk_that_others_fill_is_noticed_though_nothing_is_due() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = BagWriter::create(&folder.path().join("filled"), small_chunks()).unwrap();
+    writer.flush_if_due().unwrap();
+    writer.set_disk_reserve(u64::MAX / 4);
+    assert!(matches!(writer.flush_if_due(), Err(BagError::DiskFull { .. })));
+}
+
+#[test]
 fn what_is_no_bag_is_refused_with_its_path() {
     let folder = tempfile::tempdir().unwrap();
     let check = |name: &str, content: Option<&[u8]>, expected: &str| {

@@ -1,6 +1,7 @@
 //! One process of the plan through its lives.
 
 use super::child::Running;
+use super::ends::Ends;
 use super::output::{Console, LastWords};
 use super::{Event, Options};
 use crate::plan::Process;
@@ -17,8 +18,8 @@ pub(super) struct Member<'a> {
     state: State,
     /// How often it was started again.
     retries: u32,
-    /// How many lives in a row were short.
-    short_lives: u32,
+    /// How its lives ended so far.
+    ends: Ends,
     /// Whether its last life ended badly.
     failed: bool,
     /// What it said, if its configuration is what it refused.
@@ -56,7 +57,7 @@ pub(super) enum Step {
 impl<'a> Member<'a> {
     pub(super) fn new(index: usize, process: &'a Process, at: Instant) -> Self {
         let state = State::Waiting { at };
-        Self { index, process, state, retries: 0, short_lives: 0, failed: false, refusal: None, is_alarm: false }
+        Self { index, process, state, retries: 0, ends: Ends::default(), failed: false, refusal: None, is_alarm: false }
     }
 
     /// What calls for help, which nobody needs yet.
@@ -204,16 +205,11 @@ impl<'a> Member<'a> {
 
     fn start_again(&mut self, life: Duration, console: &Console, options: &Options) {
         let Some(respawn) = self.process.respawn else { return };
-        self.short_lives = if life < options.short_life { self.short_lives + 1 } else { 0 };
+        let crashes = self.ends.add(Instant::now(), life, options);
         if respawn.max_retries.is_some_and(|most| self.retries >= most) {
             console.say("ERROR", self.label(), &format!("was started again {} times: no more", self.retries));
-        } else if self.short_lives >= options.most_short_lives {
-            let text = format!(
-                "ended {} times within {} s of its start: not starting it again",
-                self.short_lives,
-                options.short_life.as_secs_f64()
-            );
-            console.say("ERROR", self.label(), &text);
+        } else if let Some(crashes) = crashes {
+            console.say("ERROR", self.label(), &format!("{crashes}: not starting it again"));
             self.failed = true;
         } else {
             self.retries += 1;

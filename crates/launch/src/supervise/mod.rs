@@ -4,6 +4,7 @@
 //! reaping it) or for a line of output. So a process id that the loop signals is always still that of its own child.
 
 mod child;
+mod ends;
 mod member;
 mod outcome;
 mod output;
@@ -33,6 +34,10 @@ pub struct Options {
     pub short_life: Duration,
     /// After so many short lives in a row a process is not started again.
     pub most_short_lives: u32,
+    /// Nor is one that has ended so many times, however long it lived, ...
+    pub most_ends: usize,
+    /// ... within this time.
+    pub ends_within: Duration,
     /// The exit codes by which a node says that it refuses its command line or configuration: it is not started again, and
     /// the run ends with that code.
     pub refusals: Vec<u8>,
@@ -50,13 +55,16 @@ pub struct Alarm {
 }
 
 impl Options {
-    /// The usual limits: five lives in a row of less than a second. No exit code is a refusal, and there is no alarm.
+    /// The usual limits: five lives in a row of less than a second, or ten ends within a minute. No exit code is a refusal, and
+    /// there is no alarm.
     #[must_use]
     pub fn new(log_folder: &Path) -> Self {
         Self {
             log_folder: log_folder.to_owned(),
             short_life: Duration::from_secs(1),
             most_short_lives: 5,
+            most_ends: 10,
+            ends_within: Duration::from_secs(60),
             refusals: Vec::new(),
             alarm: None,
         }

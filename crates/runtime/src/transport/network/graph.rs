@@ -17,6 +17,9 @@ pub(crate) enum GraphChange {
     Writer { topic: String, type_name: String, type_hash: String, qos: Qos },
     /// A reader here and a writer cannot talk: its quality of service does not suffice.
     Incompatible { reader: Gid, writer: Gid },
+    /// The connection to a router, over which this process reaches others, is gone, or there again. The router is named by where it
+    /// listens.
+    Router { at: String, is_there: bool },
 }
 
 /// Follows the matches of all readers and writers of this process.

@@ -1,7 +1,8 @@
-//! Following liveliness tokens: who is at the other ends of this process's topics and services.
+//! Following liveliness tokens: who is at the other ends of this process's topics and services; and whether routers are there.
 
 use super::entity::{Entity, Kind, gid};
 use super::inbox::{Inbox, wakes_by};
+use super::routers::{ConnectionChange, Routers};
 use crate::transport::network::{Gid, GraphChange, GraphWatch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,18 +13,28 @@ pub(super) struct TokenChange {
     pub(super) alive: bool,
 }
 
-/// All ends that are alive, those of this process among them.
+/// What Zenoh tells of others.
+#[derive(Debug)]
+pub(super) enum News {
+    /// Of their ends.
+    Token(TokenChange),
+    /// Of the ways to them.
+    Connection(ConnectionChange),
+}
+
+/// All ends that are alive, those of this process among them, and the routers.
 pub(super) struct Graph {
-    inbox: Inbox<TokenChange>,
+    inbox: Inbox<News>,
     ends: Ends,
+    routers: Routers,
 }
 
 wakes_by!(Graph, inbox);
 
 impl Graph {
     /// For the session that is named so in tokens.
-    pub(super) fn new(session: String, inbox: Inbox<TokenChange>) -> Self {
-        Self { inbox, ends: Ends { session, alive: BTreeMap::new() } }
+    pub(super) fn new(session: String, inbox: Inbox<News>) -> Self {
+        Self { inbox, ends: Ends { session, alive: BTreeMap::new() }, routers: Routers::default() }
     }
 }
 
@@ -31,8 +42,11 @@ impl GraphWatch for Graph {
     fn take(&mut self) -> Vec<GraphChange> {
         self.inbox.clear_wakeup();
         let mut changes = Vec::new();
-        while let Some(change) = self.inbox.take() {
-            self.ends.follow(&change, &mut changes);
+        while let Some(news) = self.inbox.take() {
+            match news {
+                News::Token(change) => self.ends.follow(&change, &mut changes),
+                News::Connection(change) => self.routers.follow(change, &mut changes),
+            }
         }
         changes
     }

@@ -18,6 +18,7 @@ mod long;
 mod qos;
 mod reader;
 mod router;
+mod routers;
 mod server;
 mod session;
 mod writer;

@@ -3,10 +3,11 @@
 use super::client::ZenohClient;
 use super::configuration;
 use super::entity::{NodeToken, all_tokens, gid};
-use super::graph::{Graph, TokenChange};
+use super::graph::{Graph, News, TokenChange};
 use super::inbox::{Inbox, Outlet};
 use super::long::LongWay;
 use super::reader::ZenohReader;
+use super::routers::ConnectionChange;
 use super::server::ZenohServer;
 use super::writer::ZenohWriter;
 use super::{Entity, Kind};
@@ -37,7 +38,7 @@ pub(crate) struct Session {
     /// Nodes and ends share one count.
     next_number: u64,
     tokens: Vec<LivelinessToken>,
-    graph: Outlet<TokenChange>,
+    graph: Outlet<News>,
     long_way: Arc<LongWay>,
     _watch: Subscriber<()>,
 }
@@ -56,10 +57,11 @@ impl Session {
         let watch = watch
             .callback(move |sample| {
                 let (key, alive) = (sample.key_expr().as_str().to_owned(), sample.kind() == SampleKind::Put);
-                heard.put(TokenChange { key, alive });
+                heard.put(News::Token(TokenChange { key, alive }));
             })
             .wait()
             .map_err(|error| fail(error.to_string()))?;
+        watch_routers(&session, &outlet).map_err(|error| fail(error.to_string()))?;
         let session = Self {
             session,
             domain,
@@ -95,9 +97,22 @@ impl Session {
         let opened = open(&self.session, entity.data_key(self.domain), gid(&key), &declare)
             .map_err(|error| TransportError::endpoint(&entity.name, &error))?;
         // Our own tokens are known before the network repeats them.
-        self.graph.put(TokenChange { key, alive: true });
+        self.graph.put(News::Token(TokenChange { key, alive: true }));
         Ok(opened)
     }
+}
+
+/// Has the loop told of connections for as long as the session lives.
+fn watch_routers(session: &zenoh::Session, outlet: &Outlet<News>) -> zenoh::Result<()> {
+    let tell = |outlet: &Outlet<News>, change: Option<ConnectionChange>| {
+        change.into_iter().for_each(|change| outlet.put(News::Connection(change)));
+    };
+    let (info, heard) = (session.info(), outlet.clone());
+    let links = info.link_events_listener().history(true);
+    links.callback(move |event| tell(&heard, ConnectionChange::of_link(&event))).background().wait()?;
+    let heard = outlet.clone();
+    let transports = info.transport_events_listener().history(true);
+    transports.callback(move |event| tell(&heard, ConnectionChange::of_transport(&event))).background().wait()
 }
 
 impl Network for Session {
