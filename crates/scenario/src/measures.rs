@@ -3,10 +3,14 @@
 use crate::closest::Closest;
 use crate::gaps::Gaps;
 use crate::robots::Robots;
-use crate::summary::{CaseSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary};
+use crate::summary::{
+    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary, WheelSummary,
+};
+use crate::transits::Watch;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
+use trench_formation::simulate::{QueueChange, QueueEvent, WheelEffort};
 use trench_formation::stability::final_misalignment;
 use trench_formation::zoning::Zone;
 
@@ -27,6 +31,10 @@ pub struct Measures {
     last_outside: Vec<f64>,
     in_zone_1: Vec<f64>,
     copies: Vec<PointState>,
+    changes: Vec<ChangeSummary>,
+    transits: Option<Watch>,
+    /// By seat, where robots have motors.
+    wheels: Vec<Option<WheelSummary>>,
 }
 
 impl Measures {
@@ -46,6 +54,9 @@ impl Measures {
             last_outside: vec![-1.0; cases],
             in_zone_1: vec![0.0; cases],
             copies: Vec::new(),
+            changes: Vec::new(),
+            transits: Watch::new(scenario),
+            wheels: vec![None; count],
         }
     }
 
@@ -75,6 +86,9 @@ impl Measures {
             if let Some([value, rate]) = robots.lyapunov(index) {
                 *lyapunov = [lyapunov[0].max(value), lyapunov[1].max(rate)];
             }
+            if let Some(watch) = &mut self.transits {
+                watch.look(index, robots.position(index), time);
+            }
             if let Some(leader) = seat.leader {
                 let distance = (robots.position(leader) - robots.position(index)).norm();
                 *leader_range = [leader_range[0].min(distance), leader_range[1].max(distance)];
@@ -82,6 +96,9 @@ impl Measures {
                     self.last_outside[seat.case] = time;
                 }
             }
+        }
+        for change in simulation.changes().iter().skip(self.changes.len()) {
+            self.changes.push(told(change, &self.seats));
         }
         // Robots of a case stand together.
         let mut first = 0;
@@ -92,6 +109,10 @@ impl Measures {
             self.closest[case].take(team, zoning, || *in_zone_1 += scenario.timing.step);
             if let Some(real) = obstacles {
                 self.gaps[case].take(real, team);
+            }
+            for (index, effort) in simulation.wheel_efforts(case).iter().enumerate() {
+                let WheelEffort { greatest, saturated } = *effort;
+                self.wheels[first + index] = Some(WheelSummary { greatest_torque: greatest, saturated });
             }
             first = end;
         }
@@ -133,6 +154,8 @@ impl Measures {
                     misalignment: is_unicycle.then_some(sample.misalignment),
                     resting_misalignment: resting(scenario, case, seat.rank),
                     effort: is_unicycle.then_some(sample.effort),
+                    transits: self.transits.as_ref().and_then(|watch| watch.of(index)),
+                    wheels: self.wheels[index],
                     lyapunov: sample.lyapunov.map(|[last, _]| {
                         let [greatest, greatest_rate] = self.lyapunov[index];
                         LyapunovSummary { greatest, last, greatest_rate }
@@ -141,7 +164,8 @@ impl Measures {
             })
             .collect();
         let all = robots.iter().map(|robot| robot.conforms_after).collect::<Option<Vec<f64>>>();
-        let has_leaders = robots.iter().any(|robot| robot.leader_distance.is_some());
+        // A queue of chapter 8 has leaders, but no zones.
+        let has_leaders = scenario.zoning().is_some() && robots.iter().any(|robot| robot.leader_distance.is_some());
         CaseSummary {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
@@ -151,6 +175,7 @@ impl Measures {
                 .iter()
                 .map(|&(id, least_gap)| ObstacleSummary { id, least_gap })
                 .collect(),
+            changes: self.changes.clone(),
             neutral_after: if has_leaders { since(self.last_outside[case]) } else { None },
             in_zone_1: self.in_zone_1[case],
             robots,
@@ -163,6 +188,18 @@ fn resting(scenario: &Scenario, case: usize, rank: usize) -> Option<f64> {
     let ChosenLaw::Robust(gains) = task.cases.get(case)?.law else { return None };
     let start = task.starts.get(rank - 1)?.0;
     Some(final_misalignment(gains, trench_formation::kinematics::Polar::of(start, task.goal).misalignment))
+}
+
+fn told(change: &QueueChange, seats: &[Seat]) -> ChangeSummary {
+    let (change_to, rank) = match change.event {
+        QueueEvent::Joins(rank) => ("joins", Some(rank)),
+        QueueEvent::Quits => ("quits", None),
+        QueueEvent::Lost => ("lost", None),
+        QueueEvent::Retargets => ("retargets", None),
+        QueueEvent::Follows => ("follows", None),
+    };
+    let robot = seats.get(change.robot).map_or_else(String::new, |seat| seat.name.clone());
+    ChangeSummary { time: change.time, robot, change: change_to, rank }
 }
 
 fn pair(vector: Vector2<f64>) -> [f64; 2] {
