@@ -72,13 +72,13 @@ fn queue(subject: &str, task: &Queue) -> Vec<Verdict> {
     let slots = queue.robots.iter().filter(|robot| robot.joins.is_none()).zip(0_u32..);
     let error = |(robot, slot): (&QueueRobotScenario, u32)| {
         let place = queue.segment.at(queue.first_place() - f64::from(slot) * queue.spacing).point;
-        (place - robot.start.position, -robot.start.velocity)
+        PointState { position: place - robot.start.position, velocity: -robot.start.velocity }
     };
-    let own: Vec<_> = slots.map(error).collect();
+    let own: Vec<PointState> = slots.map(error).collect();
     // (8.9): of the first robot from its place, of others from the one ahead.
-    let ahead = core::iter::once((Vector2::zeros(), Vector2::zeros())).chain(own.iter().copied());
-    let norm = |((e, de), (ahead, d_ahead)): (&(Vector2<f64>, Vector2<f64>), (Vector2<f64>, Vector2<f64>))| {
-        libm::hypot((e - ahead).norm(), (de - d_ahead).norm())
+    let ahead = core::iter::once(PointState::at_rest(Vector2::zeros())).chain(own.iter().copied());
+    let norm = |(own, ahead): (&PointState, PointState)| {
+        libm::hypot((own.position - ahead.position).norm(), (own.velocity - ahead.velocity).norm())
     };
     let initial_error = own.iter().zip(ahead).map(norm).fold(0.0, f64::max);
     let of = ChainOfRobots {
