@@ -155,6 +155,10 @@ fn signs_are_those_of_the_thesis() {
         obstacles.contains("thin: the pole of their repulsion") && obstacles.contains("rho_hat = 2"),
         "{obstacles}"
     );
+    assert!(!obstacles.contains("open end"), "{obstacles}");
+    drawn_of("7.13_open.yaml");
+    let open = texts(&svg("2.1"));
+    assert!(open.contains("- - - segment,  · · · its open end"), "{open}");
 }
 
 #[test]

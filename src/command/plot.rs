@@ -1,6 +1,7 @@
 //! `trench plot`: pictures of a run.
 
 mod axes;
+mod clip;
 mod errors;
 mod field;
 mod figures;

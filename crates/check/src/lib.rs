@@ -20,6 +20,7 @@ mod scenario;
 mod standing;
 mod stiffness;
 mod team;
+mod transits;
 mod verdict;
 mod vertices;
 mod zones;

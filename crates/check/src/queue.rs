@@ -2,6 +2,7 @@
 
 use crate::approach::approaches;
 use crate::growth::growth;
+use crate::transits::of_segment;
 use crate::verdict::number;
 use crate::vertices::vertices;
 use crate::{Team, Verdict};
@@ -25,6 +26,10 @@ pub fn formation(subject: &str, plan: &Plan, team: &Team) -> Vec<Verdict> {
     verdicts.extend(motion(subject, plan, team));
     verdicts.extend(approaches(subject, plan, team));
     verdicts.extend(vertices(subject, plan, team));
+    if ["nearest", "chain"].contains(&team.law.as_str()) {
+        let of = |queue: &QueuePlan| of_segment(&format!("{subject}, queue {}", queue.name), &queue.curve);
+        verdicts.extend(plan.queues.iter().filter_map(of));
+    }
     verdicts.extend(plan.queues.iter().filter_map(|queue| growth(subject, plan, queue, team)));
     verdicts
 }

@@ -12,11 +12,16 @@ const COUNTED: usize = 1000;
 /// Whether the fragments have a place for every robot. On a segment that bends back, where places that were found and places that can be
 /// are not the same, numbers between are noted: nothing is proved of them.
 pub(crate) fn room(subject: &str, segment: &Curve, fragments: &[Interval], robots: usize, rho_hat: f64) -> Verdict {
+    let apart = number(rho_hat);
     let enough = robots.max(COUNTED);
+    if fragments.iter().any(|(from, to)| from.is_infinite() || to.is_infinite()) {
+        let finding =
+            format!("the queue is open and goes on for ever: {robots} robots have places, {apart} m from each other");
+        return Verdict::new("room", subject, true, finding, EQUATION);
+    }
     let Room { found, most } = Room::count(segment, fragments, rho_hat, enough);
     let length: f64 = fragments.iter().map(|(from, to)| to - from).sum();
     let on = format!("{} m in {} fragments", number(length), fragments.len());
-    let apart = number(rho_hat);
     if found >= robots {
         let more = if found == enough { " and more" } else { "" };
         let finding = format!("{on} have {found} places{more} for {robots} robots, {apart} m from each other");

@@ -5,9 +5,10 @@ use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::potential::potential;
 use crate::room::room;
+use crate::transits::transits;
 use crate::verdict::number;
 use crate::zones::zones;
-use crate::{Approach, Verdict, direction, gains};
+use crate::{Approach, ChainOfRobots, Verdict, chain, direction, gains};
 use trench_formation::Vector2;
 use trench_formation::agent::Method;
 use trench_formation::curve::{Curve, Placed};
@@ -15,10 +16,10 @@ use trench_formation::hull::Outline;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
-use trench_formation::simulate::ChainScenario;
+use trench_formation::simulate::{ChainScenario, QueueRobotScenario};
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_formation::zoning::Radii;
-use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
+use trench_scenario::{ChosenLaw, Directed, GoalLaw, Queue, Scenario, Task};
 
 /// Trenches are looked at up to this distance, m.
 const RANGE: f64 = 100.0;
@@ -59,8 +60,38 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
         }
         Task::Directed(task) => directed(subject, task),
         Task::Nearest(task, _) => nearest(subject, task),
+        Task::Queue(task) => queue(subject, task),
         Task::Launch(_) => Vec::new(),
     }
+}
+
+/// The bound of chapter 8, where robots are those that begin: nobody's error may be as large as the spacing, at which it could be in the
+/// place of the one ahead.
+fn queue(subject: &str, task: &Queue) -> Vec<Verdict> {
+    let Queue { queue, .. } = task;
+    let slots = queue.robots.iter().filter(|robot| robot.joins.is_none()).zip(0_u32..);
+    let error = |(robot, slot): (&QueueRobotScenario, u32)| {
+        let place = queue.segment.at(queue.first_place() - f64::from(slot) * queue.spacing).point;
+        PointState { position: place - robot.start.position, velocity: -robot.start.velocity }
+    };
+    let own: Vec<PointState> = slots.map(error).collect();
+    // (8.9): of the first robot from its place, of others from the one ahead.
+    let ahead = core::iter::once(PointState::at_rest(Vector2::zeros())).chain(own.iter().copied());
+    let norm = |(own, ahead): (&PointState, PointState)| {
+        libm::hypot((own.position - ahead.position).norm(), (own.velocity - ahead.velocity).norm())
+    };
+    let initial_error = own.iter().zip(ahead).map(norm).fold(0.0, f64::max);
+    let of = ChainOfRobots {
+        instead_of: None,
+        robots: own.len(),
+        gains: (queue.law.position_gain, queue.law.velocity_gain),
+        initial_error,
+        setting_out: 0.0,
+        tolerance: queue.spacing,
+        acceleration: None,
+    };
+    let found = chain(subject, &of);
+    vec![Verdict { holds: true, note: !found.holds, ..found }]
 }
 
 fn named(subject: &str, case: &str) -> String {
@@ -121,6 +152,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
         verdicts.extend(directions(subject, &Placed::new(&task.segment, frame), robots, task.law.damping));
     }
     verdicts.extend(feasibility_of_nearest(subject, task));
+    verdicts.push(transits(subject, &Placed::new(&task.segment, task.carriage.at(0.0).0), &task.robots));
     let damping = task.law.damping + task.law.leader_damping;
     verdicts.extend(growth_at_rest(subject, "(7.13)", (&task.law.trench, damping), &radii, task.robots.len()));
     verdicts
@@ -146,7 +178,7 @@ pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     let mut verdicts = match &scenario.task {
         Task::Directed(task) => feasibility_of_directed(subject, task),
         Task::Nearest(task, _) => feasibility_of_nearest(subject, task),
-        Task::Regulating(_) | Task::GoalTracking(_) | Task::Launch(_) => Vec::new(),
+        Task::Regulating(_) | Task::GoalTracking(_) | Task::Queue(_) | Task::Launch(_) => Vec::new(),
     };
     verdicts.retain(|verdict| !verdict.holds);
     verdicts
@@ -160,7 +192,7 @@ fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
 }
 
 fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
-    let (radii, whole) = (task.zoning.radii(), (0.0, task.segment.length()));
+    let (radii, whole) = (task.zoning.radii(), task.segment.domain());
     let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
     let hulls = task.combined(&task.obstacles).ok();
     let room = hulls.map(|hulls| {
@@ -180,12 +212,12 @@ fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability
     of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
 }
 
-/// Sine of the least angle between the direction of attraction and the segment, as seen at a thousand of its points.
+/// Sine of the least angle between the direction of attraction and the segment.
 fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
-    let Some(Method::Directed { direction: Some(along), .. }) = task.options.method else { return 1.0 };
-    let part = task.segment.length() / 1000.0;
-    let sine = |index: u32| task.segment.at(part * f64::from(index)).tangent.perp(&along).abs();
-    (0..=1000).map(sine).fold(1.0, f64::min)
+    match task.options.method {
+        Some(Method::Directed { direction: Some(along), .. }) => task.segment.least_sine(along),
+        _ => 1.0,
+    }
 }
 
 /// The largest slope of a trench; infinite of one that is not admissible.

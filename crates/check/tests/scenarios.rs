@@ -198,3 +198,39 @@ fn chains_that_do_not_fit() {
         &[("zones", "bodies touch at 3 m"), ("clearance", "robots are 3 m wide")],
     );
 }
+
+/// An open queue goes on beyond its end: robots that find no place on the finite part find one there.
+#[test]
+fn open_queues_have_room_beyond_their_ends() {
+    let room = |open: &str| {
+        let segment = format!("[5.0, 5.0]]{open}");
+        let verdicts = judged("7.10.yaml", "[100.0, 100.0]]", &segment);
+        verdicts.into_iter().find(|verdict| verdict.check == "room").unwrap()
+    };
+    let (closed, open) = (room(""), room(", open_end: true"));
+    assert!(!closed.holds && closed.finding.contains("4 places"), "{closed:?}");
+    assert!(open.holds && !open.note && open.finding.contains("goes on for ever: 10 robots have places"), "{open:?}");
+    // Where obstacles cover the finite part the file's own robots stand on the extension.
+    let shipped = judged("7.13_open.yaml", "", "").into_iter().find(|verdict| verdict.check == "room").unwrap();
+    assert!(shipped.holds && shipped.finding.contains("open"), "{shipped:?}");
+}
+
+/// Where nearest points may jump, and who begins there.
+#[test]
+fn transits_are_told() {
+    let transits = |name: &str, old: &str, new: &str| {
+        judged(name, old, new).into_iter().find(|verdict| verdict.check == "transits").unwrap()
+    };
+    let straight = transits("7.10.yaml", "", "");
+    assert!(straight.holds && !straight.note && straight.finding.contains("straight"), "{straight:?}");
+    // y = x^2/20 bends most at 0, with the radius 10 m.
+    let line = "{kind: line, points: [[-40.0, 0.0], [0.0, 0.0]], open_end: true}";
+    let parabola = "{kind: graph, expression: \"x^2/20\", from: -60.0, to: 60.0}";
+    let bent = transits("7.13_open.yaml", line, parabola);
+    assert!(bent.holds && bent.note && bent.equation.contains("Definition 7.2.1"), "{bent:?}");
+    assert!(bent.finding.contains("10 m or more from the segment, beyond [0, 10]"), "{bent:?}");
+    assert!(bent.finding.contains("r4 begin there"), "{bent:?}");
+    let corner = "{kind: polyline, points: [[-40.0, 0.0], [0.0, 0.0], [0.0, 40.0]]}";
+    let corner = transits("7.13_open.yaml", line, corner);
+    assert!(corner.note && corner.finding.contains("from the corner at 40 m on"), "{corner:?}");
+}

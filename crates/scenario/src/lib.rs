@@ -13,14 +13,18 @@ mod robots;
 mod scenario;
 mod simulation;
 mod summary;
+mod transits;
 
 pub use launch::{Argument, Launch};
 pub use law::{ChosenLaw, GoalLaw};
 pub use measures::Measures;
 pub use read::{is_scenario, parse};
 pub use scenario::{
-    Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Regulating, RegulatingCase,
-    Scenario, Seat, Start, Task, Timing,
+    Bounds, Compared, ComparedCase, Directed, Drawing, Figure, GoalCase, GoalTracking, Plant, Queue, Regulating,
+    RegulatingCase, Scenario, Seat, Start, Task, Timing,
 };
 pub use simulation::{RunError, Sample, Simulation};
-pub use summary::{CaseSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary};
+pub use summary::{
+    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary, TransitSummary, Transits,
+    WheelSummary,
+};

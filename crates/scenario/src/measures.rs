@@ -3,11 +3,15 @@
 use crate::closest::Closest;
 use crate::gaps::Gaps;
 use crate::robots::Robots;
-use crate::summary::{CaseSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary};
+use crate::summary::{
+    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary, WheelSummary,
+};
+use crate::transits::Watch;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
 use std::ops::Range;
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
+use trench_formation::simulate::{QueueChange, QueueEvent, WheelEffort};
 use trench_formation::stability::final_misalignment;
 use trench_formation::zoning::{Zone, Zoning};
 
@@ -25,6 +29,10 @@ pub struct Measures {
     /// By case.
     teams: Vec<Team>,
     copies: Vec<PointState>,
+    changes: Vec<ChangeSummary>,
+    transits: Option<Watch>,
+    /// By seat, where robots have motors.
+    wheels: Vec<Option<WheelSummary>>,
 }
 
 /// Of a robot.
@@ -68,7 +76,16 @@ impl Measures {
             let team = &mut teams[seat.case].seats;
             *team = if team.end == 0 { index } else { team.start }..index + 1;
         }
-        Self { time: 0.0, kept: seats.iter().map(kept).collect(), teams, copies: Vec::new(), seats }
+        Self {
+            time: 0.0,
+            kept: seats.iter().map(kept).collect(),
+            teams,
+            copies: Vec::new(),
+            changes: Vec::new(),
+            transits: Watch::new(scenario),
+            wheels: vec![None; seats.len()],
+            seats,
+        }
     }
 
     /// Looks at all robots, before the first step and after each. `samples` are of now; where [`Simulation::tells_itself`] nobody looks
@@ -103,6 +120,18 @@ impl Measures {
                     closest.take(points, block.clone(), zoning, || *in_zone_1 += scenario.timing.step);
                 }
                 gaps.take(points, block);
+            }
+        }
+        if let Some(watch) = &mut self.transits {
+            watch.look(robots, time);
+        }
+        for change in simulation.changes().iter().skip(self.changes.len()) {
+            self.changes.push(told(change, &self.seats));
+        }
+        for (case, team) in self.teams.iter().enumerate() {
+            for (index, effort) in simulation.wheel_efforts(case).iter().enumerate() {
+                let WheelEffort { greatest, saturated } = *effort;
+                self.wheels[team.seats.start + index] = Some(WheelSummary { greatest_torque: greatest, saturated });
             }
         }
     }
@@ -143,6 +172,8 @@ impl Measures {
                     misalignment: is_unicycle.then_some(sample.misalignment),
                     resting_misalignment: resting(scenario, case, seat.rank),
                     effort: is_unicycle.then_some(sample.effort),
+                    transits: self.transits.as_ref().and_then(|watch| watch.of(index, sample.position, self.time)),
+                    wheels: self.wheels[index],
                     lyapunov: sample.lyapunov.map(|[last, _]| {
                         let [greatest, greatest_rate] = self.kept[index].lyapunov;
                         LyapunovSummary { greatest, last, greatest_rate }
@@ -151,7 +182,8 @@ impl Measures {
             })
             .collect();
         let all = robots.iter().map(|robot| robot.conforms_after).collect::<Option<Vec<f64>>>();
-        let has_leaders = robots.iter().any(|robot| robot.leader_distance.is_some());
+        // A queue of chapter 8 has leaders, but no zones.
+        let has_leaders = scenario.zoning().is_some() && robots.iter().any(|robot| robot.leader_distance.is_some());
         CaseSummary {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
@@ -162,6 +194,7 @@ impl Measures {
                 .iter()
                 .map(|&(id, least_gap)| ObstacleSummary { id, least_gap })
                 .collect(),
+            changes: self.changes.clone(),
             neutral_after: if has_leaders { since(self.teams[case].last_outside) } else { None },
             in_zone_1: self.teams[case].in_zone_1,
             robots,
@@ -204,6 +237,18 @@ fn resting(scenario: &Scenario, case: usize, rank: usize) -> Option<f64> {
     let ChosenLaw::Robust(gains) = task.cases.get(case)?.law else { return None };
     let start = task.starts.get(rank - 1)?.0;
     Some(final_misalignment(gains, trench_formation::kinematics::Polar::of(start, task.goal).misalignment))
+}
+
+fn told(change: &QueueChange, seats: &[Seat]) -> ChangeSummary {
+    let (change_to, rank) = match change.event {
+        QueueEvent::Joins(rank) => ("joins", Some(rank)),
+        QueueEvent::Quits => ("quits", None),
+        QueueEvent::Lost => ("lost", None),
+        QueueEvent::Retargets => ("retargets", None),
+        QueueEvent::Follows => ("follows", None),
+    };
+    let robot = seats.get(change.robot).map_or_else(String::new, |seat| seat.name.clone());
+    ChangeSummary { time: change.time, robot, change: change_to, rank }
 }
 
 fn pair(vector: Vector2<f64>) -> [f64; 2] {

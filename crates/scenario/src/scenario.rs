@@ -4,9 +4,9 @@ use crate::{ChosenLaw, GoalLaw, Launch};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Course};
 use trench_formation::curve::CurveShape;
-use trench_formation::kinematics::{Hilare, PointState, Pose};
+use trench_formation::kinematics::{Hilare, PointState, Pose, WheelDrive};
 use trench_formation::laws::Capability;
-use trench_formation::simulate::{ChainScenario, Integration, WaveGoals, ZonedChainScenario};
+use trench_formation::simulate::{ChainScenario, Integration, QueueScenario, WaveGoals, ZonedChainScenario};
 use trench_formation::stability::TwoGainLaw;
 use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::Zoning;
@@ -76,6 +76,8 @@ pub enum Task {
     Directed(Box<Directed>),
     /// Chapter 7.
     Nearest(Box<ChainScenario<AnyTrench>>, CurveShape),
+    /// Chapter 8.
+    Queue(Box<Queue>),
     /// 4.6: node cores in lock-step.
     Launch(Launch),
 }
@@ -129,9 +131,18 @@ pub struct GoalCase {
     /// Its law.
     pub law: GoalLaw,
     /// The body that the law drives through T1 and T2 (3.1.1); none: the robots are double integrators (3.4).
-    pub plant: Option<Hilare>,
+    pub plant: Option<Plant>,
     /// What the robots can do (9.2), of double integrators under [`GoalLaw::Trench`]; none: whatever the law asks for.
     pub bounds: Option<Bounds>,
+}
+
+/// A robot of 3.1.1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plant {
+    /// Its body.
+    pub body: Hilare,
+    /// The motors that move it; none: force and torque are what the feedback asks for.
+    pub drive: Option<WheelDrive>,
 }
 
 /// Bounded actuators, and bodies.
@@ -148,6 +159,15 @@ pub struct Bounds {
 pub struct Directed {
     /// What is simulated.
     pub chain: ZonedChainScenario<AnyTrench>,
+    /// The whole segment, m.
+    pub segment: CurveShape,
+}
+
+/// A queue under the linear laws (8.7) and (8.11).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Queue {
+    /// What is simulated.
+    pub queue: QueueScenario,
     /// The whole segment, m.
     pub segment: CurveShape,
 }
@@ -234,6 +254,7 @@ impl Scenario {
                     .collect(),
                 None => vec![("", &*self.name)],
             },
+            Task::Queue(_) => vec![("", &*self.name)],
             Task::Launch(_) => Vec::new(),
         }
     }
@@ -246,6 +267,8 @@ impl Scenario {
             Task::GoalTracking(task) => (task.robots.len(), false),
             Task::Directed(task) => (task.chain.robots.len(), true),
             Task::Nearest(chain, _) => (chain.robots.len(), true),
+            // Where robots come and go nobody follows the same one all the time.
+            Task::Queue(task) => (task.queue.robots.len(), task.queue.is_settled()),
             Task::Launch(_) => (0, false),
         };
         let mut seats = Vec::new();

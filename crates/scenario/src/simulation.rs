@@ -1,14 +1,15 @@
 //! Running a scenario.
 
 use crate::law::ChosenLaw;
-use crate::{Bounds, ComparedCase, GoalCase, GoalLaw, Scenario, Task};
+use crate::{Bounds, ComparedCase, GoalCase, GoalLaw, Plant, Scenario, Task};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Trip};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::{HandState, HilareState, PointState, Twist};
 use trench_formation::laws::Steered;
 use trench_formation::simulate::{
-    BoundedTeam, ChainSimulation, GoalTeam, HilareTeam, Regulation, ScenarioError, WaveGoals, Workers, ZonedChain,
+    BoundedTeam, ChainSimulation, GoalTeam, HilareTeam, QueueChange, QueueTeam, Regulation, ScenarioError, WaveGoals,
+    WheelEffort, Workers, ZonedChain,
 };
 use trench_formation::trench::{AnyDamping, AnyTrench};
 
@@ -63,6 +64,7 @@ enum Running {
     Goals(WaveGoals, Vec<(Team, GoalLaw)>),
     Directed(Box<ZonedChain<AnyTrench>>),
     Nearest(Box<ChainSimulation<AnyTrench>>, Vec<Trip<AnyGuide>>),
+    Queue(Box<QueueTeam>),
 }
 
 /// Robots that track goal points.
@@ -106,7 +108,13 @@ impl Simulation {
                 let hands: Vec<HandState> = hands.map(|(&hand, &theta)| HandState { hand, theta }).collect();
                 let fastest = task.goals.fastest();
                 let team = |case: &GoalCase| match (case.plant, case.bounds, &case.law) {
-                    (Some(body), ..) => Team::Bodies(HilareTeam::new(body, &hands, timing.integration, timing.step)),
+                    (Some(Plant { body, drive }), ..) => {
+                        let team = HilareTeam::new(body, &hands, timing.integration, timing.step);
+                        Team::Bodies(match drive {
+                            Some(drive) => team.driven_by(drive),
+                            None => team,
+                        })
+                    }
                     (None, Some(Bounds { limits, radius }), GoalLaw::Trench(law)) => {
                         let (bodies, clock) = ((radius, fastest), (timing.integration, timing.step));
                         Team::Bounded(BoundedTeam::new(task.robots.clone(), law.clone(), limits, bodies, clock))
@@ -124,6 +132,9 @@ impl Simulation {
                 let compared = scenario.compared.iter().flat_map(|compared| &compared.cases);
                 let trips = compared.map(trip).collect::<Result<_, _>>().map_err(ScenarioError::from)?;
                 Running::Nearest(Box::new(ChainSimulation::new((**chain).clone())?), trips)
+            }
+            Task::Queue(task) => {
+                Running::Queue(Box::new(QueueTeam::new(task.queue.clone(), timing.integration, timing.step)))
             }
             Task::Launch(_) => return Err(RunError::Launch),
         };
@@ -166,6 +177,7 @@ impl Simulation {
                 }
             }
             Running::Directed(chain) => chain.step(),
+            Running::Queue(team) => team.step(),
             Running::Nearest(chain, trips) => {
                 chain.step()?;
                 trips.iter_mut().for_each(|trip| trip.step(self.step));
@@ -251,6 +263,13 @@ impl Simulation {
                     samples.push(of_point(*robot, steered, Some(point), (point - robot.position).norm()));
                 }
             }
+            Running::Queue(team) => {
+                for (index, robot) in team.robots().iter().enumerate() {
+                    let (acceleration, point) = team.drawn(index);
+                    let sample = of_point(*robot, None, Some(point), (point - robot.position).norm());
+                    samples.push(Sample { acceleration, ..sample });
+                }
+            }
             Running::Nearest(chain, trips) => {
                 for (index, robot) in chain.robots().iter().enumerate() {
                     let action = chain.outcomes().get(index);
@@ -278,6 +297,27 @@ impl Simulation {
             *heading = sample.heading;
         }
         Ok(())
+    }
+
+    /// What has befallen a queue so far, in time.
+    #[must_use]
+    pub fn changes(&self) -> &[QueueChange] {
+        match &self.running {
+            Running::Queue(team) => team.changes(),
+            _ => &[],
+        }
+    }
+
+    /// What the motors of each robot of a case were asked for so far, by rank; nothing where robots have none.
+    #[must_use]
+    pub fn wheel_efforts(&self, case: usize) -> &[WheelEffort] {
+        match &self.running {
+            Running::Goals(_, teams) => match teams.get(case) {
+                Some((Team::Bodies(team), _)) => team.efforts(),
+                _ => &[],
+            },
+            _ => &[],
+        }
     }
 
     /// Real obstacles as the robots know them and apparent ones, now.

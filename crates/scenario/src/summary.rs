@@ -32,8 +32,23 @@ pub struct CaseSummary {
     pub neutral_after: Option<f64>,
     /// Seconds that robots spent in zone 1 of a robot, summed over pairs.
     pub in_zone_1: f64,
+    /// What befell a queue, in time: robots that quit and join, links that break.
+    pub changes: Vec<ChangeSummary>,
     /// By rank.
     pub robots: Vec<RobotSummary>,
+}
+
+/// A change of a queue's structure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChangeSummary {
+    /// s.
+    pub time: f64,
+    /// Whom it befell.
+    pub robot: String,
+    /// What: `joins`, `quits`, `lost`, `retargets` or `follows`.
+    pub change: &'static str,
+    /// The rank at which it joins, from 1 on.
+    pub rank: Option<usize>,
 }
 
 /// An obstacle.
@@ -66,8 +81,43 @@ pub struct RobotSummary {
     pub resting_misalignment: Option<f64>,
     /// Integral of v^2 + omega^2 (Table 4.1).
     pub effort: Option<f64>,
+    /// Jumps of its nearest point on the whole segment (Definition 7.2.1), where that is bent.
+    pub transits: Option<Transits>,
+    /// What its motors were asked for, where it is driven by wheel torques (3.1).
+    pub wheels: Option<WheelSummary>,
     /// The law's Lyapunov function (A.10, A.12, A.18, chapter 4) along the run, where it was asked.
     pub lyapunov: Option<LyapunovSummary>,
+}
+
+/// Transits along a run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Transits {
+    /// How many.
+    pub count: usize,
+    /// The first hundred of them.
+    pub first: Vec<TransitSummary>,
+}
+
+/// A transit: the nearest point jumps from one transit point to another.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TransitSummary {
+    /// s: when it was seen, on whose last `tolerance` of its way it was.
+    pub time: f64,
+    /// Where the robot was, m.
+    pub place: [f64; 2],
+    /// Arc length of the transit point before, m.
+    pub from: f64,
+    /// And behind.
+    pub to: f64,
+}
+
+/// Motors of the wheels along a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WheelSummary {
+    /// The largest torque that was asked for, N m.
+    pub greatest_torque: f64,
+    /// How long it was more than the motors have, s.
+    pub saturated: f64,
 }
 
 /// A Lyapunov function along a run.

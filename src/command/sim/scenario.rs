@@ -10,9 +10,12 @@ use std::path::Path;
 use std::time::Instant;
 use trench_bag::run::Run;
 use trench_check::Verdict;
-use trench_scenario::{CaseSummary, Measures, Scenario, Simulation, Summary};
+use trench_scenario::{CaseSummary, ChangeSummary, Measures, Scenario, Simulation, Summary, Transits, WheelSummary};
 
 mod messages;
+
+/// Transits of a robot that people are told the times of; programs are told of a hundred.
+const TRANSITS: usize = 8;
 
 /// A run and what is to be said of it.
 pub(crate) struct Done {
@@ -94,6 +97,10 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
     for obstacle in &case.obstacles {
         writeln!(formatter, "  obstacle {}: no robot nearer than {:.4} m", obstacle.id, obstacle.least_gap)?;
     }
+    for ChangeSummary { time, robot, change, rank } in &case.changes {
+        let rank = rank.map_or(String::new(), |rank| format!(" as rank {rank}"));
+        writeln!(formatter, "  after {time:.2} s {robot} {change}{rank}")?;
+    }
     writeln!(formatter, "  robot          x (m)     y (m)   error (m)  conforms (s)  leader (m)  phi (rad)  effort")?;
     for robot in &case.robots {
         let [x, y] = robot.position;
@@ -109,6 +116,26 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
             optional(robot.misalignment, 5),
             optional(robot.effort, 3),
         )?;
+    }
+    for robot in &case.robots {
+        if let Some(Transits { count: count @ 1.., first }) = &robot.transits {
+            let times: Vec<String> =
+                first.iter().take(TRANSITS).map(|transit| format!("{:.2}", transit.time)).collect();
+            let more = if *count > TRANSITS { ", ..." } else { "" };
+            writeln!(
+                formatter,
+                "  transits of {} (Definition 7.2.1): {count}, after {}{more} s",
+                robot.name,
+                times.join(", ")
+            )?;
+        }
+        if let Some(WheelSummary { greatest_torque, saturated }) = robot.wheels {
+            let name = &robot.name;
+            writeln!(
+                formatter,
+                "  wheels of {name}: up to {greatest_torque:.4} N m wanted, saturated for {saturated:.3} s"
+            )?;
+        }
     }
     Ok(())
 }

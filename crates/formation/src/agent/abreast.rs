@@ -1,6 +1,6 @@
 //! Several robots at once, in the lanes of vector instructions, while nothing but their leaders is near them: of thousands, most.
 use super::surroundings::Moment;
-use super::{Agent, AgentSettings, Encroaching, Method};
+use super::{Agent, AgentSettings, Method};
 use crate::Vector2;
 use crate::curve::Curve;
 use crate::kinematics::PointState;
@@ -83,7 +83,7 @@ impl<T: Trench> Agent<T> {
         let Moment { since, segment, motion } = side.moment;
         let plain = settings.method == Method::Nearest
             && settings.remedies.is_none()
-            && !matches!(settings.encroaching, Encroaching::ObstaclesAndPlaces(_))
+            && !settings.encroaching.tells_places()
             && (motion.turn_rate, motion.turn_acceleration) == (0.0, 0.0);
         if !plain || side.alone == [false; LANES] {
             return None;

@@ -1,4 +1,5 @@
 //! Steps (1) to (3) of 7.5.2: what obstacles and robots ahead leave of the segment.
+use super::settings::RobotsAhead;
 use super::{Agent, Encroaching, Surroundings};
 use crate::Vector2;
 use crate::curve::{Interval, encroached};
@@ -36,29 +37,28 @@ pub(super) fn is_near(then: Vector2<f64>, now: Vector2<f64>) -> bool {
 
 impl<T: Trench> Agent<T> {
     pub(super) fn find_fragments(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
-        let whole = around.curve.domain();
-        match self.settings.encroaching {
-            Encroaching::Nothing => self.fragments = Fragments::whole(whole),
-            Encroaching::Obstacles => self.fragments = self.left_by(around, around.apparent),
-            Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndRobotsApart(radius) => {
-                let robots = self.robots_there(around, radius);
-                self.find_among(around, robots, radius)?;
-            }
-            Encroaching::ObstaclesAndPlaces(radius) => self.find_among(around, self.places_held(around), radius)?,
-        }
-        Ok(())
+        let encroaching = self.settings.encroaching;
+        let Some(ahead) = encroaching.robots_ahead() else {
+            self.fragments = match encroaching {
+                Encroaching::Nothing => Fragments::whole(around.curve.domain()),
+                _ => self.left_by(around, around.apparent),
+            };
+            return Ok(());
+        };
+        let robots = if ahead.places { self.places_held(around) } else { self.robots_there(around, ahead.radius) };
+        self.find_among(around, robots, ahead)
     }
 
     fn find_among(
         &mut self,
         around: &Surroundings<'_>,
         robots: Vec<Vector2<f64>>,
-        radius: f64,
+        ahead: RobotsAhead,
     ) -> Result<(), HullError> {
         if self.encroachers.as_ref().is_some_and(|known| known.still_hold(around, &robots)) {
             return Ok(());
         }
-        let all = self.merge(around, &robots, radius)?;
+        let all = self.merge(around, &robots, ahead)?;
         let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
         let known = self.encroachers.take().filter(|known| known.map_from_segment == map_from_segment);
         let mut known = known.map_or_else(Vec::new, |known| known.hulls);
@@ -85,12 +85,10 @@ impl<T: Trench> Agent<T> {
     /// # Errors
     /// Robots ahead whose position is not finite.
     pub fn merged(&self, around: &Surroundings<'_>) -> Result<Vec<ApparentObstacle>, HullError> {
-        match self.settings.encroaching {
-            Encroaching::ObstaclesAndRobots(radius) | Encroaching::ObstaclesAndRobotsApart(radius) => {
-                self.merge(around, &self.robots_there(around, radius), radius)
-            }
-            Encroaching::ObstaclesAndPlaces(radius) => self.merge(around, around.places, radius),
-            Encroaching::Nothing | Encroaching::Obstacles => Ok(Vec::new()),
+        match self.settings.encroaching.robots_ahead() {
+            None => Ok(Vec::new()),
+            Some(ahead) if ahead.places => self.merge(around, around.places, ahead),
+            Some(ahead) => self.merge(around, &self.robots_there(around, ahead.radius), ahead),
         }
     }
 
@@ -98,10 +96,10 @@ impl<T: Trench> Agent<T> {
         &self,
         around: &Surroundings<'_>,
         robots: &[Vector2<f64>],
-        radius: f64,
+        RobotsAhead { radius, apart, .. }: RobotsAhead,
     ) -> Result<Vec<ApparentObstacle>, HullError> {
         let clearance = self.settings.clearance;
-        if matches!(self.settings.encroaching, Encroaching::ObstaclesAndRobotsApart(_)) {
+        if apart {
             return apparent_obstacles_apart(around.apparent, robots, radius, clearance);
         }
         apparent_obstacles(around.real, robots, radius, clearance, |a, b| around.parted(a, b, clearance))

@@ -1,7 +1,7 @@
 //! Choosing places from the start: which fragments a robot may choose where those ahead tell what they have chosen.
 
 use super::encroach::is_near;
-use super::{Agent, Encroaching, Surroundings};
+use super::{Agent, Surroundings};
 use crate::Vector2;
 use crate::curve::{Interval, encroached};
 use crate::hull::Outline;
@@ -20,7 +20,7 @@ impl<T: Trench> Agent<T> {
 
     /// Where the leader is going to stand, if it tells.
     pub(super) fn leaders_place(&self, around: &Surroundings<'_>) -> Option<Vector2<f64>> {
-        let tells = matches!(self.settings.encroaching, Encroaching::ObstaclesAndPlaces(_));
+        let tells = self.settings.encroaching.tells_places();
         around.leader.and(around.places.last().copied()).filter(|_| tells)
     }
 

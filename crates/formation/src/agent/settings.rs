@@ -67,15 +67,37 @@ pub enum Encroaching {
 }
 
 impl Encroaching {
+    /// How robots ahead encroach; none where they do not.
+    pub(super) fn robots_ahead(self) -> Option<RobotsAhead> {
+        let (radius, places, apart) = match self {
+            Self::Nothing | Self::Obstacles => return None,
+            Self::ObstaclesAndRobots(radius) => (radius, false, false),
+            Self::ObstaclesAndRobotsApart(radius) => (radius, false, true),
+            Self::ObstaclesAndPlaces(radius) => (radius, true, false),
+        };
+        Some(RobotsAhead { radius, places, apart })
+    }
+
     /// The radius that robots ahead encroach with, m; none where they do not.
     pub fn robot_radius(self) -> Option<f64> {
-        match self {
-            Self::ObstaclesAndRobots(radius)
-            | Self::ObstaclesAndRobotsApart(radius)
-            | Self::ObstaclesAndPlaces(radius) => Some(radius),
-            Self::Nothing | Self::Obstacles => None,
-        }
+        self.robots_ahead().map(|ahead| ahead.radius)
     }
+
+    /// Whether robots tell those behind them which places they have chosen.
+    pub fn tells_places(self) -> bool {
+        self.robots_ahead().is_some_and(|ahead| ahead.places)
+    }
+}
+
+/// How robots ahead encroach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct RobotsAhead {
+    /// m.
+    pub(super) radius: f64,
+    /// By the places that they have chosen, not by where they are once they have come to the segment.
+    pub(super) places: bool,
+    /// Joining only what of obstacles is near to them.
+    pub(super) apart: bool,
 }
 
 /// Watching for local minima and raising guards.

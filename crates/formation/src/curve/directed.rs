@@ -12,7 +12,7 @@ const MISSED: f64 = 1e-9;
 impl Curve {
     /// The least and the greatest component along the unit vector `axis`, m; infinite where an open end leads there.
     pub fn extent(&self, axis: Vector2<f64>) -> (f64, f64) {
-        (-self.reach(-axis).0, self.reach(axis).0)
+        (-self.farthest_along(-axis).0, self.farthest_along(axis).0)
     }
 
     /// The points of attraction of a robot at `point` along `direction` (not zero): all points where the straight line through
@@ -56,7 +56,7 @@ impl Curve {
     ) -> Option<Foot> {
         let across = Vector2::new(direction.y, -direction.x) / direction.norm();
         let on_one = |at: &f64| intervals.iter().any(|(from, to)| from <= at && at <= to);
-        let outermost = [across, -across].into_iter().filter_map(|axis| self.reach(axis).1).filter(on_one);
+        let outermost = [across, -across].into_iter().filter_map(|axis| self.farthest_along(axis).1).filter(on_one);
         let ends = intervals.iter().flat_map(|(from, to)| [*from, *to]).filter(|at| at.is_finite());
         let extended = [0.0, self.length].into_iter().filter(|_| self.open_start || self.open_end).filter(on_one);
         let passed = |foot: &Foot| (foot.point - point).dot(&across).abs();
@@ -89,7 +89,7 @@ impl Curve {
 
     /// The greatest component along `axis` and the arc length of where it is, by halving only what may exceed the best so far; infinite
     /// and nowhere where an open end leads there.
-    fn reach(&self, axis: Vector2<f64>) -> (f64, Option<f64>) {
+    fn farthest_along(&self, axis: Vector2<f64>) -> (f64, Option<f64>) {
         let outward = [(self.open_start, -self.at_end(false).1), (self.open_end, self.at_end(true).1)];
         if outward.into_iter().any(|(is_open, tangent)| is_open && tangent.dot(&axis) > 0.0) {
             return (f64::INFINITY, None);

@@ -104,11 +104,13 @@ impl<'a> Placed<'a> {
     }
 
     /// A point of the curve's frame.
-    pub(super) fn point_to_map(self, point: Vector2<f64>) -> Vector2<f64> {
+    /// A point of the curve's frame in that in which it moves, m.
+    pub fn point_to_map(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.transform_point(&point.into()).coords
     }
 
-    pub(super) fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
+    /// A point of the frame in which the curve moves in the curve's, m.
+    pub fn to_curve(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.inverse_transform_point(&point.into()).coords
     }
 

@@ -4,6 +4,7 @@
 mod actuation;
 mod angle;
 mod double_integrator;
+mod drive;
 mod facing;
 mod hilare;
 mod limits;
@@ -14,6 +15,7 @@ mod wheels;
 pub use actuation::WheelForces;
 pub use angle::wrap;
 pub use double_integrator::PointState;
+pub use drive::{WheelDrive, WheelTorques};
 pub use facing::Facing;
 pub use hilare::{HandState, Hilare, HilareInput, HilareRates, HilareState, twist_of_hand};
 pub use limits::{Limited, Ramp, saturate};

@@ -1,7 +1,7 @@
 //! One step of a chain's robots, each by itself or several side by side.
 use super::ChainScenario;
+use super::Outcome;
 use super::vicinity::Vicinity;
-use super::{Encroaching, Outcome};
 use crate::Vector2;
 use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surroundings};
 use crate::hull::{ApparentObstacle, Obstacle};
@@ -47,7 +47,7 @@ impl<T: Trench> View<'_, T> {
         let mut around = self.around(part.first);
         let moment = around.moment(since);
         let Some(settings) = part.agents.first().map(Agent::shared) else { return };
-        let tells = matches!(self.scenario.encroaching, Encroaching::ObstaclesAndPlaces(_));
+        let tells = self.scenario.encroaching.tells_places();
         let robots = part.robots.chunks_mut(LANES);
         let outcomes = part.outcomes.chunks_mut(LANES).zip(part.deviations.chunks_mut(LANES));
         let mut later = part.agents;

@@ -3,7 +3,7 @@ use super::act::{Part, View};
 use super::sight::Knowledge;
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
-use super::{ChainScenario, Encroaching, Outcome, ScenarioError};
+use super::{ChainScenario, Outcome, ScenarioError};
 use crate::Vector2;
 use crate::agent::Agent;
 use crate::hull::{ApparentObstacle, Obstacle};
@@ -145,7 +145,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         }
         self.seen.copy_from_slice(&self.robots);
         self.seen_deviations.copy_from_slice(&self.deviations);
-        if let Encroaching::ObstaclesAndPlaces(_) = self.scenario.encroaching {
+        if self.scenario.encroaching.tells_places() {
             self.seen_places.copy_from_slice(&self.places);
         }
         let moves = self.scenario.moves();

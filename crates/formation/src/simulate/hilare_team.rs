@@ -1,15 +1,27 @@
 //! Hilare robots (3.1.1) that track goal points: a law for double integrators acts on them through T1 and T2.
 use super::Integration;
-use crate::kinematics::{HandState, Hilare, HilareState, PointState, Pose, Twist};
+use crate::kinematics::{HandState, Hilare, HilareState, PointState, Pose, Twist, WheelDrive};
 use crate::laws::{GoalMotion, Steered};
 use crate::stability::rk4;
 use nalgebra::SVector;
+
+/// What the motors of a robot were asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WheelEffort {
+    /// The largest torque, N m, of either wheel at the beginning of any step.
+    pub greatest: f64,
+    /// How long it was more than they have, s.
+    pub saturated: f64,
+}
 
 /// A team under way, all of one body: the hand of each goes to the goal point of its index, by one law.
 #[derive(Debug, Clone)]
 pub struct HilareTeam {
     body: Hilare,
+    /// The motors that force and torque go through; none: the body has whatever the feedback asks for.
+    drive: Option<WheelDrive>,
     robots: Vec<HilareState>,
+    efforts: Vec<WheelEffort>,
     method: Integration,
     step: f64,
     steps: u64,
@@ -22,16 +34,31 @@ impl HilareTeam {
     /// that is commanded once a step, and the body moves under them by RK4.
     pub fn new(body: Hilare, hands: &[HandState], method: Integration, step: f64) -> Self {
         let robots = hands.iter().map(|hand| body.from_hand(*hand)).collect();
-        Self { body, robots, method, step, steps: 0 }
+        Self { body, drive: None, robots, efforts: Vec::new(), method, step, steps: 0 }
+    }
+
+    /// Has the feedback drive the robots by the torques of their wheels.
+    #[must_use]
+    pub fn driven_by(self, drive: WheelDrive) -> Self {
+        Self { drive: Some(drive), efforts: vec![WheelEffort::default(); self.robots.len()], ..self }
     }
 
     /// Advances by one step. `goal` moves the goal point of a robot, `law` steers its hand to it.
     pub fn step(&mut self, goal: impl Fn(usize, f64) -> GoalMotion, law: impl Fn(PointState, GoalMotion) -> Steered) {
-        let (time, body, step) = (self.time(), self.body, self.step);
+        let (time, body, drive, step) = (self.time(), self.body, self.drive, self.step);
         for (index, robot) in self.robots.iter_mut().enumerate() {
-            let input = |state: HilareState, time: f64| {
+            let wanted = |state: HilareState, time: f64| {
                 body.feedback(state, law(body.to_hand(state).hand, goal(index, time)).acceleration)
             };
+            let input = |state: HilareState, time: f64| {
+                let wanted = wanted(state, time);
+                drive.map_or(wanted, |drive| drive.through(wanted))
+            };
+            if let Some((drive, effort)) = drive.zip(self.efforts.get_mut(index)) {
+                let torque = drive.torques(wanted(*robot, time)).peak();
+                effort.greatest = effort.greatest.max(torque);
+                effort.saturated += if torque > drive.most { step } else { 0.0 };
+            }
             *robot = match self.method {
                 Integration::RungeKutta => of_vector(&rk4(time, to_vector(*robot), step, |time, now| {
                     let state = of_vector(now);
@@ -53,6 +80,11 @@ impl HilareTeam {
     /// The robots, in order.
     pub fn robots(&self) -> &[HilareState] {
         &self.robots
+    }
+
+    /// What their motors were asked for, in order; nothing without motors.
+    pub fn efforts(&self) -> &[WheelEffort] {
+        &self.efforts
     }
 
     /// Their hands, which move as double integrators do (3.4).

@@ -15,6 +15,7 @@ mod integrate;
 mod judge;
 mod neighbours;
 mod observe;
+mod queue_team;
 mod random;
 mod regulation;
 mod scenario;
@@ -28,11 +29,14 @@ pub use bounded_team::BoundedTeam;
 pub use carriage::Carriage;
 pub use chain::ChainSimulation;
 pub use goal_team::{GoalTeam, WaveGoals};
-pub use hilare_team::HilareTeam;
+pub use hilare_team::{HilareTeam, WheelEffort};
 pub use integrate::Integration;
 pub use judge::{Standard, Verdict, judge};
 pub use neighbours::Neighbours;
 pub use observe::Outcome;
+pub use queue_team::{
+    BrokenLink, QueueChange, QueueEvent, QueueRobotScenario, QueueScenario, QueueTeam, Quitting, Recovery,
+};
 pub use random::{BODY_RADIUS, CAPABILITY, random_team, random_team_among_concave_obstacles};
 pub use regulation::Regulation;
 pub use scenario::{ChainScenario, Options, ScenarioError};

@@ -2,11 +2,11 @@
 
 use super::common::{body, damping, limits, name, point, point_or_zero, positive, some, trench};
 use crate::law::GoalLaw;
-use crate::scenario::{Bounds, GoalCase, GoalTracking};
+use crate::scenario::{Bounds, GoalCase, GoalTracking, Plant};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::avoidance::{GoalPotential, VelocityPotential};
-use trench_formation::kinematics::{Hilare, PointState};
+use trench_formation::kinematics::{Axle, Hilare, PointState, WheelDrive};
 use trench_formation::laws;
 use trench_formation::simulate::{Integration, WaveGoals};
 use trench_formation::trench::{AnyDamping, AnyTrench, ConstantDamping};
@@ -76,20 +76,34 @@ fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<(PointState, f6
     Ok((state, heading))
 }
 
-/// What the law acts on: double integrators, or a body.
-fn plant(map: &Map<'_>) -> Result<Option<Hilare>, ConfigError> {
+/// What the law acts on: double integrators, or a body, perhaps by the torques of its wheels.
+fn plant(map: &Map<'_>) -> Result<Option<Plant>, ConfigError> {
     let Some(map) = map.opt_map("plant")? else { return Ok(None) };
-    let plant = match map.one_of("kind", &[("double_integrator", false), ("hilare", true)])? {
-        false => None,
-        true => Some(Hilare {
-            mass: positive(&map, "mass")?,
-            inertia: positive(&map, "inertia")?,
-            mass_offset: map.get_or("mass_offset", 0.0)?,
-            hand_offset: hand_offset(&map)?,
-        }),
+    let kind = map.one_of("kind", &[("double_integrator", 0), ("hilare", 1), ("wheels", 2)])?;
+    let plant = match kind {
+        0 => None,
+        _ => {
+            let body = Hilare {
+                mass: positive(&map, "mass")?,
+                inertia: positive(&map, "inertia")?,
+                mass_offset: map.get_or("mass_offset", 0.0)?,
+                hand_offset: hand_offset(&map)?,
+            };
+            let drive = if kind == 2 { Some(drive(&map)?) } else { None };
+            Some(Plant { body, drive })
+        }
     };
     map.finish()?;
     Ok(plant)
+}
+
+/// Wheels and their motors.
+fn drive(map: &Map<'_>) -> Result<WheelDrive, ConfigError> {
+    Ok(WheelDrive {
+        axle: Axle { half_track: positive(map, "half_track")? },
+        radius: positive(map, "wheel_radius")?,
+        most: positive(map, "wheel_torque")?,
+    })
 }
 
 /// L, in front of the axle or behind it.

@@ -5,6 +5,7 @@ mod common;
 mod compared;
 mod figures;
 mod goals;
+mod queue;
 mod ranks;
 mod regulating;
 
@@ -21,14 +22,16 @@ enum Kind {
     GoalTracking,
     Directions,
     Nearest,
+    Queue,
     Launch,
 }
 
-const KINDS: [(&str, Kind); 5] = [
+const KINDS: [(&str, Kind); 6] = [
     ("regulation", Kind::Regulation),
     ("goal_tracking", Kind::GoalTracking),
     ("directions_of_attraction", Kind::Directions),
     ("nearest_points", Kind::Nearest),
+    ("queue", Kind::Queue),
     ("launch", Kind::Launch),
 ];
 
@@ -61,6 +64,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
                 Kind::Regulation => Task::Regulating(regulating::read(&map)?),
                 Kind::GoalTracking => Task::GoalTracking(goals::read(&map, timing.integration)?),
                 Kind::Directions => Task::Directed(Box::new(chain::directed(&map)?)),
+                Kind::Queue => Task::Queue(Box::new(queue::read(&map)?)),
                 _ => chain::nearest(&map, &timing)?,
             };
             (timing, task)

@@ -5,9 +5,12 @@ mod bounds;
 mod fragments;
 mod hilare;
 mod open;
+mod queue;
 mod ranks;
 mod trajectories;
+mod transits;
 mod trenches;
+mod wheels;
 
 use std::fs;
 use std::path::PathBuf;
@@ -69,7 +72,7 @@ fn every_file_reads() {
         assert!(!scenario.figures.is_empty(), "{name}");
         count += 1;
     }
-    assert!(count >= 39);
+    assert!(count >= 45);
 }
 
 /// Sections 4.2 to 4.4, 4.6, 5.6, 6.5, 7.6 to 7.8 and 7.10 but for photographs, noise of the camera (4.23 to 4.31) and block diagrams (6.5, 7.17).

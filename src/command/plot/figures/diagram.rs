@@ -1,8 +1,8 @@
 //! Diagrams of one quantity over another.
 
 use super::super::axes::short;
+use super::super::clip::clip;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
-use super::clip::clip;
 use plotters::prelude::*;
 
 /// A diagram's axes.

@@ -1,9 +1,9 @@
 //! The field with segment, obstacles, paths and robots.
 
 use super::super::axes::short;
+use super::super::clip::clip;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
 use super::arrow::arrow;
-use super::clip::clip;
 use super::obstacles;
 use super::select::{Selection, Shown};
 use plotters::chart::ChartContext;
@@ -36,7 +36,8 @@ impl Field {
             selection.robots.iter().flat_map(|robot| path(robot, 0.0, until).into_iter().chain(goals(robot, until)));
         let mut points: Vec<(f64, f64)> = paths.collect();
         points.extend(team_goal(scenario));
-        if scenario.zoning().is_some() && selection.robots.len() > 1 {
+        let is_chain = scenario.zoning().is_some() || matches!(scenario.task, Task::Queue(_));
+        if is_chain && selection.robots.len() > 1 {
             points.extend(segment(scenario));
         }
         points.extend(obstacles::extent(scenario));
@@ -93,6 +94,12 @@ impl Field {
         for part in clip(&segment(scenario), window) {
             let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));
             chart.draw_series(dashes).map_err(text)?;
+        }
+        for extension in extensions(scenario, 2.0 * ((right - left) + (top - bottom))) {
+            for part in clip(&extension, window) {
+                let dots = DashedLineSeries::new(part, 2 * UNIT, 5 * UNIT, line(REFERENCE.mix(0.7), 1));
+                chart.draw_series(dots).map_err(text)?;
+            }
         }
         obstacles::draw(&mut chart, scenario, window, until)?;
         // Those named first are drawn last: where paths are the same, they are seen.
@@ -159,9 +166,23 @@ fn team_goal(scenario: &Scenario) -> impl Iterator<Item = (f64, f64)> {
         Task::Regulating(task) => Some(task.goal),
         Task::Directed(task) => Some(task.chain.team_goal),
         Task::Nearest(chain, _) => chain.team_goal,
+        Task::Queue(task) => Some(task.queue.target),
         Task::GoalTracking(_) | Task::Launch(_) => None,
     };
     goal.into_iter().map(|goal: Vector2<f64>| (goal.x, goal.y))
+}
+
+/// What lies beyond open ends, as far as `length` (m): straight along the tangents there, without end (2.1).
+pub(super) fn extensions(scenario: &Scenario, length: f64) -> Vec<[(f64, f64); 2]> {
+    let curve = match &scenario.task {
+        Task::Nearest(chain, _) => &chain.segment,
+        Task::Queue(task) => &task.queue.segment,
+        _ => return Vec::new(),
+    };
+    let (from, to) = curve.domain();
+    let ends = [(from, 0.0, -length), (to, curve.length(), curve.length() + length)];
+    let open = ends.into_iter().filter(|(domain, ..)| domain.is_infinite());
+    open.map(|(_, end, beyond)| [end, beyond].map(|at| curve.at(at).point).map(|point| (point.x, point.y))).collect()
 }
 
 fn segment(scenario: &Scenario) -> Vec<(f64, f64)> {
@@ -171,6 +192,7 @@ fn segment(scenario: &Scenario) -> Vec<(f64, f64)> {
             _ => Vec::new(),
         },
         Task::Nearest(chain, shape) => trench_plan::sampled(shape, &chain.segment, 0.0),
+        Task::Queue(task) => trench_plan::sampled(&task.segment, &task.queue.segment, 0.0),
         _ => Vec::new(),
     };
     points.into_iter().map(|point| (point.x, point.y)).collect()

@@ -2,7 +2,6 @@
 
 mod arrow;
 mod chapter4;
-mod clip;
 mod diagram;
 mod map;
 mod obstacles;
@@ -108,9 +107,13 @@ fn field_notes(scenario: &Scenario, arrows: Option<f64>) -> String {
         (Task::Regulating(_), _) => "● start,  ■ end,  × goal".to_owned(),
         (Task::GoalTracking(_), Some(robot)) => format!("{robot},  ○ its goal point"),
         (Task::GoalTracking(_), None) => "● start,  ■ end;  grey: path of the goal point".to_owned(),
+        (Task::Queue(_), robot) => {
+            format!("{},  - - - segment,  × target of the queue", robot.unwrap_or("● start,  ■ end".to_owned()))
+        }
         (_, robot) => format!("{},  - - - segment,  × goal of r1", robot.unwrap_or("● start,  ■ end".to_owned())),
     };
-    [signs, obstacles::notes(scenario)].join("\n")
+    let open = if map::extensions(scenario, 1.0).is_empty() { "" } else { ",  · · · its open end" };
+    [signs.replacen("- - - segment", &format!("- - - segment{open}"), 1), obstacles::notes(scenario)].join("\n")
 }
 
 /// What one entry of a legend takes, units.

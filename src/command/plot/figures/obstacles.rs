@@ -1,7 +1,7 @@
 //! Obstacles on the map.
 
+use super::super::clip::clip;
 use super::super::style::{UNIT, line, text};
-use super::clip::clip;
 use super::map::Chart;
 use crate::command::rounded::rounded;
 use plotters::prelude::*;

@@ -106,6 +106,11 @@ impl<'a> Publisher<'a> {
                 let (from, to) = chain.segment.domain();
                 (trench_plan::message_from_shape(shape, from.is_infinite(), to.is_infinite()), chain.team_goal)
             }
+            Task::Queue(task) => {
+                let (from, to) = task.queue.segment.domain();
+                let segment = trench_plan::message_from_shape(&task.segment, from.is_infinite(), to.is_infinite());
+                (segment, Some(task.queue.target))
+            }
             Task::Regulating(task) => (Segment::default(), Some(task.goal)),
             Task::GoalTracking(_) | Task::Launch(_) => (Segment::default(), None),
         };

@@ -1,0 +1,103 @@
+//! `kind: queue`: the linear laws of chapter 8, and what befalls a queue.
+
+use super::common::{point, point_or_zero, positive, some};
+use crate::scenario::Queue;
+use trench_config::yaml::{Map, Node};
+use trench_config::{ConfigError, did_you_mean};
+use trench_formation::kinematics::PointState;
+use trench_formation::laws::QueueFollowing;
+use trench_formation::simulate::{BrokenLink, QueueRobotScenario, QueueScenario, Quitting, Recovery};
+
+pub(super) fn read(map: &Map<'_>) -> Result<Queue, ConfigError> {
+    let (shape, segment) = trench_plan::segment(map.node("segment")?)?;
+    let robots: Vec<QueueRobotScenario> = some(map, "robots")?.iter().map(robot).collect::<Result<_, _>>()?;
+    if robots.iter().all(|robot| robot.joins.is_some()) {
+        return Err(map.error("robots", "all join later: there is no queue", "have one be there from the beginning"));
+    }
+    let queue = QueueScenario {
+        target: point(map.node("target")?)?,
+        spacing: positive(map, "spacing")?,
+        law: law(&map.map("law")?)?,
+        broken: map.opt_list("broken_links")?.iter().map(|node| broken(node, &robots)).collect::<Result<_, _>>()?,
+        recovery: map.opt_map("recovery")?.map(|map| recovery(&map)).transpose()?,
+        segment,
+        robots,
+    };
+    let (first, needed) = (queue.first_place(), queue.spacing * (queue.robots.len() - 1) as f64);
+    let before = if queue.segment.is_closed() { queue.segment.length() } else { first - queue.segment.domain().0 };
+    if needed > before {
+        let count = queue.robots.len();
+        let problem = format!(
+            "leaves no places for {count} robots: they need {needed} m before the target, there are {before} m"
+        );
+        return Err(map.error("spacing", problem, "lengthen the segment, or space them more closely"));
+    }
+    Ok(Queue { queue, segment: shape })
+}
+
+/// K, or the poles that it gives.
+fn law(map: &Map<'_>) -> Result<QueueFollowing, ConfigError> {
+    let law = match map.opt_node("poles") {
+        Some(node) => match node.get::<[f64; 2]>()? {
+            [first, second] if first < 0.0 && second < 0.0 => QueueFollowing::with_poles(-first, -second),
+            _ => {
+                return Err(map.error(
+                    "poles",
+                    "are not both below 0: F is not Hurwitz",
+                    "write two numbers below 0, 1/s",
+                ));
+            }
+        },
+        None => QueueFollowing {
+            position_gain: positive(map, "position_gain")?,
+            velocity_gain: positive(map, "velocity_gain")?,
+        },
+    };
+    map.finish()?;
+    Ok(law)
+}
+
+fn robot(node: &Node) -> Result<QueueRobotScenario, ConfigError> {
+    let map = node.map()?;
+    let start = PointState { position: point(map.node("position")?)?, velocity: point_or_zero(&map, "velocity")? };
+    let joins = time(&map, "joins")?;
+    let quits = map.opt_map("quits")?.map(|map| quitting(&map)).transpose()?;
+    if quits.is_some_and(|quits| joins.is_some_and(|joins| quits.at <= joins)) {
+        return Err(map.error("quits", "is before the robot joins", "have it quit later"));
+    }
+    map.finish()?;
+    Ok(QueueRobotScenario { start, joins, quits })
+}
+
+fn quitting(map: &Map<'_>) -> Result<Quitting, ConfigError> {
+    let quitting =
+        Quitting { at: positive(map, "at")?, to: point(map.node("to")?)?, closes_up: map.get_or("closes_up", true)? };
+    map.finish()?;
+    Ok(quitting)
+}
+
+fn time(map: &Map<'_>, key: &str) -> Result<Option<f64>, ConfigError> {
+    map.opt_node(key).map(|_| positive(map, key)).transpose()
+}
+
+fn broken(node: &Node, robots: &[QueueRobotScenario]) -> Result<BrokenLink, ConfigError> {
+    let map = node.map()?;
+    let names: Vec<String> = (1..=robots.len()).map(|rank| format!("r{rank}")).collect();
+    let name = map.str("robot")?;
+    let Some(robot) = names.iter().position(|known| known == name) else {
+        let remedy = did_you_mean(name, names.iter().map(String::as_str));
+        return Err(map.error("robot", "is not in this scenario", remedy));
+    };
+    let (from, to) = (map.f64("from")?, map.f64("to")?);
+    if from >= to {
+        return Err(map.error("to", "is not after `from`", "write when the link is whole again, s"));
+    }
+    map.finish()?;
+    Ok(BrokenLink { robot, from, to })
+}
+
+fn recovery(map: &Map<'_>) -> Result<Recovery, ConfigError> {
+    let recovery = Recovery { range: positive(map, "range")?, speed: positive(map, "speed")? };
+    map.finish()?;
+    Ok(recovery)
+}

@@ -1,0 +1,226 @@
+//! Chapter 8: the linear queue laws, A.22, Remarks 8.4.1 and 6.2.1.
+
+use super::{folder, run_scenario, run_with, scenario};
+use std::fs;
+use trench_formation::Vector2;
+use trench_formation::stability::{Coupling, QueueRobot, cascade_bounds};
+use trench_scenario::{CaseSummary, Queue, Sample, Task, parse};
+
+fn queue(name: &str) -> Queue {
+    let Task::Queue(queue) = scenario(name).task else { panic!("{name} is no queue") };
+    *queue
+}
+
+/// A place, counted from the first one on, m.
+fn place(Queue { queue, .. }: &Queue, slot: u32) -> Vector2<f64> {
+    queue.segment.at(queue.first_place() - f64::from(slot) * queue.spacing).point
+}
+
+/// e and e' of (8.9): of the first robot from its place, of each other from the one ahead, which keeps its place; in the plane.
+fn errors(queue: &Queue, samples: &[Sample]) -> Vec<(Vector2<f64>, Vector2<f64>)> {
+    let own = |(sample, slot)| (place(queue, slot) - sample_at(sample), -velocity(sample));
+    let own: Vec<_> = samples.iter().zip(0..).map(own).collect();
+    let ahead = core::iter::once((Vector2::zeros(), Vector2::zeros())).chain(own.iter().copied());
+    own.iter().zip(ahead).map(|(own, ahead)| (own.0 - ahead.0, own.1 - ahead.1)).collect()
+}
+
+fn sample_at(sample: &Sample) -> Vector2<f64> {
+    sample.position
+}
+
+fn velocity(sample: &Sample) -> Vector2<f64> {
+    sample.velocity
+}
+
+fn norms(errors: &[(Vector2<f64>, Vector2<f64>)]) -> Vec<f64> {
+    errors.iter().map(|(e, rate)| e.norm().hypot(rate.norm())).collect()
+}
+
+/// e(t) under the poles -1 and -2: e'' + 3 e' + 2 e = 0.
+fn free((e, rate): (Vector2<f64>, Vector2<f64>), time: f64) -> Vector2<f64> {
+    (-time).exp() * (2.0 * e + rate) - (-2.0 * time).exp() * (e + rate)
+}
+
+fn times(until: u32) -> Vec<f64> {
+    (0..=10 * until).map(|tenth| 0.1 * f64::from(tenth)).collect()
+}
+
+fn changes(case: &CaseSummary) -> Vec<(f64, &str, &str, Option<usize>)> {
+    let of = |change: &trench_scenario::ChangeSummary| change.time;
+    assert!(case.changes.windows(2).all(|pair| of(&pair[0]) <= of(&pair[1])), "{:?}", case.changes);
+    case.changes.iter().map(|change| (change.time, &*change.robot, change.change, change.rank)).collect()
+}
+
+/// (8.8) for the first robot, in closed form; (8.28) for all: no error exceeds the bound of its rank, and all decay.
+#[test]
+fn the_linear_laws_keep_their_bounds() {
+    let name = "8.4_queue.yaml";
+    let (task, (summary, kept)) = (queue(name), run_with(name, &times(25)));
+    let start = errors(&task, &kept[0]);
+    let robot = QueueRobot::double_integrator_with(2.0, 3.0);
+    let bounds = cascade_bounds(&vec![robot; start.len()], Coupling::Realisable, &norms(&start)).unwrap();
+    let mut greatest = vec![0.0_f64; start.len()];
+    for (samples, time) in kept.iter().zip(times(25)) {
+        let now = errors(&task, samples);
+        assert!((now[0].0 - free(start[0], time)).norm() < 1e-8, "{time} s: {:?}", now[0]);
+        for ((greatest, norm), bound) in greatest.iter_mut().zip(norms(&now)).zip(&bounds) {
+            assert!(norm <= bound * (1.0 + 1e-9), "{time} s: {norm} {bound}");
+            *greatest = greatest.max(norm);
+        }
+    }
+    // Bounds of the right size: the one ahead is felt, and no bound is ten times what is there.
+    assert!(
+        greatest.iter().zip(&bounds).all(|(greatest, bound)| bound < &(10.0 * greatest)),
+        "{greatest:?} {bounds:?}"
+    );
+    let case = &summary.cases[0];
+    assert!(case.robots.iter().all(|robot| robot.error < 1e-5) && case.neutral_after.is_none(), "{case:?}");
+    for (robot, slot) in case.robots.iter().zip(0..) {
+        assert!((Vector2::from(robot.position) - place(&task, slot)).norm() < 1e-5, "{robot:?}");
+    }
+}
+
+/// (8.11) needs the realisable form: gains whose F is not Hurwitz are refused, by poles and by signs.
+#[test]
+fn queues_that_are_none_are_refused() {
+    for (file, old, new, expected) in [
+        ("8.4_queue.yaml", "poles: [-1.0, -2.0]", "poles: [-1.0, 0.0]", "not Hurwitz"),
+        ("8.4_queue.yaml", "poles: [-1.0, -2.0]", "position_gain: 2.0, velocity_gain: 0.0", "law.velocity_gain"),
+        ("8.4_queue.yaml", "spacing: 4.0", "spacing: 14.0", "leaves no places for 6 robots"),
+        ("8.4.1_broken_links.yaml", "robot: r6", "robot: r9", "r9"),
+        ("8.4.1_broken_links.yaml", "from: 2.0, to: 15.0", "from: 15.0, to: 2.0", "is not after `from`"),
+        (
+            "A.22_quit_and_join.yaml",
+            "joins: 30.0",
+            "joins: 30.0, quits: {at: 20.0, to: [0.0, 0.0]}",
+            "before the robot joins",
+        ),
+        ("6.2.1_recovery.yaml", "range: 6.0", "range: 0.0", "recovery.range"),
+    ] {
+        let text = fs::read_to_string(folder().join(file)).unwrap();
+        assert!(text.contains(old), "{old}");
+        let error = parse(file, &text.replacen(old, new, 1)).unwrap_err().to_string();
+        assert!(error.contains(expected) && error.contains(file), "{error}");
+    }
+}
+
+/// Proposition 8.4.2: after each change of structure all errors decay again, and everybody comes to the place that A.22 gives it.
+#[test]
+fn robots_quit_and_join() {
+    let name = "A.22_quit_and_join.yaml";
+    let task = queue(name);
+    let (summary, kept) = run_with(name, &[14.9, 29.9, 44.9, 59.9, 80.0]);
+    let case = &summary.cases[0];
+    let expected = [
+        (15.0, "r3", "quits", None),
+        (30.0, "r7", "joins", Some(3)),
+        (45.0, "r2", "quits", None),
+        (60.0, "r8", "joins", Some(2)),
+    ];
+    let found = changes(case);
+    assert!(found.iter().filter(|change| change.2 != "follows").eq(&expected), "{found:?}");
+    // Robots by place, and between changes nobody but those on the way there is anywhere else.
+    let queues: [&[(usize, u32)]; 5] = [
+        &[(1, 0), (2, 1), (3, 2), (4, 3), (5, 4), (6, 5)],
+        &[(1, 0), (2, 1), (4, 2), (5, 3), (6, 4)],
+        &[(1, 0), (2, 1), (7, 2), (4, 3), (5, 4), (6, 5)],
+        &[(1, 0), (7, 2), (4, 3), (5, 4), (6, 5)],
+        &[(1, 0), (8, 1), (7, 2), (4, 3), (5, 4), (6, 5)],
+    ];
+    for (samples, queue) in kept.iter().zip(queues) {
+        for (rank, slot) in queue {
+            let off = (samples[rank - 1].position - place(&task, *slot)).norm();
+            assert!(off < 0.01, "r{rank} is {off} m from place {slot}");
+        }
+    }
+    assert!((Vector2::from(case.robots[1].position) - Vector2::new(38.0, 12.0)).norm() < 1e-3, "r2 has left");
+    // Case 2.1: when r2 quits, those behind stay.
+    assert!((3..=6).all(|robot| (kept[3][robot].position - kept[2][robot].position).norm() < 0.01));
+}
+
+/// Remark 8.4.1: a robot whose link is broken goes to its place by (8.7), whatever the one ahead does, and follows again afterwards.
+#[test]
+fn robots_behind_a_broken_link_go_to_their_places() {
+    let name = "8.4.1_broken_links.yaml";
+    let (task, moments) = (queue(name), times(40));
+    let (summary, kept) = run_with(name, &moments);
+    let case = &summary.cases[0];
+    let expected = [
+        (1.0, "r4", "retargets"),
+        (2.0, "r6", "retargets"),
+        (4.0, "r4", "follows"),
+        (15.0, "r6", "follows"),
+        (20.0, "r4", "retargets"),
+        (25.0, "r4", "follows"),
+    ];
+    let found = changes(case);
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, wanted) in found.iter().zip(expected) {
+        assert!((found.0 - wanted.0).abs() < 1e-9 && (found.1, found.2) == (wanted.1, wanted.2), "{found:?}");
+    }
+    let error = |tenth: usize, robot: usize| {
+        let sample = &kept[tenth][robot - 1];
+        (place(&task, robot as u32 - 1) - sample.position, -sample.velocity)
+    };
+    for (robot, from, to) in [(4, 10, 40), (6, 20, 150)] {
+        for tenth in from..=to {
+            let wanted = free(error(from, robot), moments[tenth] - moments[from]);
+            let found = error(tenth, robot).0;
+            assert!((found - wanted).norm() < 1e-7, "r{robot} at {} s: {found} {wanted}", moments[tenth]);
+        }
+    }
+    // The same without a break goes otherwise, so it is the remark that is seen; and both end in the places.
+    let text = fs::read_to_string(folder().join(name)).unwrap();
+    let (links, robots) = (text.find("broken_links:").unwrap(), text.find("robots:  ").unwrap());
+    let whole = parse(name, &[&text[..links], &text[robots..]].concat()).unwrap();
+    let (unbroken, others) = run_scenario(&whole, &moments);
+    assert!((others[40][3].position - kept[40][3].position).norm() > 0.1);
+    assert!(unbroken.cases[0].changes.is_empty());
+    for (robot, slot) in case.robots.iter().zip(0..) {
+        assert!((Vector2::from(robot.position) - place(&task, slot)).norm() < 1e-4, "{robot:?}");
+    }
+}
+
+/// Remark 6.2.1: robots that reach nobody go to the segment, along it towards the team goal at their greatest speed, and join as soon as they
+/// reach somebody.
+#[test]
+fn robots_that_have_lost_their_team_come_to_it() {
+    let name = "6.2.1_recovery.yaml";
+    let (task, moments) = (queue(name), times(60));
+    let recovery = task.queue.recovery.unwrap();
+    let (summary, kept) = run_with(name, &moments);
+    let case = &summary.cases[0];
+    let found = changes(case);
+    let of = |robot: &str| -> Vec<(f64, &str, Option<usize>)> {
+        found.iter().filter(|change| change.1 == robot).map(|change| (change.0, change.2, change.3)).collect()
+    };
+    for (robot, rank) in [("r4", 4), ("r5", 5)] {
+        let [(lost, "lost", None), (joined, "joins", Some(found_rank))] = of(robot)[..] else { panic!("{found:?}") };
+        assert!(lost == 0.0 && found_rank == rank, "{found:?}");
+        let (index, after) = (rank - 1, moments.iter().position(|time| *time >= joined).unwrap());
+        let nearest = |samples: &Vec<Sample>| {
+            let gaps = samples[..index].iter().map(|other| (other.position - samples[index].position).norm());
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        // One tick before it reaches nobody, one after it does; a tick is 0.2 m at most.
+        assert!(nearest(&kept[after - 1]) > recovery.range - 1e-9, "{robot}");
+        assert!(nearest(&kept[after]) < recovery.range + 0.2, "{robot}");
+        // On the segment, at the greatest speed, for most of the way, and never faster.
+        let way = &kept[..after];
+        assert!(way.iter().all(|samples| samples[index].velocity.norm() <= recovery.speed + 1e-9));
+        let before: Vec<&Sample> = way.iter().rev().take(40).map(|samples| &samples[index]).collect();
+        for sample in before {
+            let foot = task.queue.segment.nearest(sample.position);
+            assert!(foot.distance < 0.7, "{robot}: {} m from the segment", foot.distance);
+            let forward = sample.velocity.dot(&foot.tangent);
+            assert!(forward > 0.85 * recovery.speed, "{robot}: {forward} m/s along it");
+        }
+    }
+    let ends: Vec<f64> = case
+        .robots
+        .iter()
+        .zip(0..)
+        .map(|(robot, slot)| (Vector2::from(robot.position) - place(&task, slot)).norm())
+        .collect();
+    assert!(ends.iter().all(|off| *off < 0.01), "{ends:?}");
+}
