@@ -161,7 +161,7 @@ impl NodeCore for RfBridge {
             Event::Started => {
                 self.downlink.start(at);
                 if self.downlink.key().is_none() {
-                    sink.log(Level::Warn, &format!("key_file names no key: {NO_KEY}"));
+                    sink.log(Level::Info, &format!("key_file names no key: {NO_KEY}"));
                 }
                 self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
                 if self.stop.active() {

@@ -208,14 +208,13 @@ fn old_commands_and_foreign_masters_are_refused() {
 #[test]
 fn numbers_that_are_none_never_reach_a_wheel() {
     let mut both = running();
-    let before = both.logged(Level::Warn);
     for v in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 2.1] {
         both.drive(3, 2, v, 0.0);
         both.drive(3, 2, 0.0, v * 10.0);
     }
     both.run(1100);
     assert_eq!((both.place(1), both.place(2)), ((0.4, 0.5), (0.4, 1.2)));
-    assert_eq!(both.logged(Level::Warn) - before, 2, "told once a robot, counted from then on");
+    assert_eq!(both.logged(Level::Warn), 2, "told once a robot, counted from then on");
     let diagnostics: DiagnosticArray = both.bridge.last("/diagnostics");
     let messages = diagnostics.status.iter().find(|status| status.name.ends_with("messages")).unwrap();
     assert!(messages.values.iter().any(|value| value.key == "dropped" && value.value == "60"), "{messages:?}");
