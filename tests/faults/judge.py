@@ -315,8 +315,9 @@ def contacts(bag: Run, windows: list) -> list[str]:
     """Bodies that touched, whenever that was, robots, obstacles and edges, but for a robot that was carried to touch another one."""
     put = [began for fault, began, _ in windows if fault.get("touches")]
 
+    # The bed tells of a contact when it comes, of what is in force a frame later at most.
     def is_told(at: float, text: str) -> bool:
-        return ROBOTS_TOUCH.search(text) is not None and any(began <= at <= began + PUT for began in put)
+        return ROBOTS_TOUCH.search(text) is not None and any(began - FRAME <= at <= began + PUT for began in put)
 
     return [f"contact: {text}" for at, text in bag.contacts if not is_told(at, text)][:1]
 
