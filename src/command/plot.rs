@@ -3,6 +3,7 @@
 mod axes;
 mod clip;
 mod errors;
+mod extensions;
 mod field;
 mod figures;
 mod output;

@@ -20,7 +20,7 @@ the worst of all seeds that were run:
   that is whole and has at most a second less (and a pause of its recorder). Each speed
   that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
   old commands, and nobody else's;
-- in sixteen runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
+- in CHANGING runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
   against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
   died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; *(log)*: a node's word on its
@@ -58,7 +58,8 @@ def write(runs: list[dict], results: Path, page: Path) -> None:
             met, failed_beside = of(fault, alone), [told for told in of(fault, beside) if told["problems"]]
             unknown = f"| {fault['name']} | {run['name']} | | | | | | not run | | - |"
             lines.append(row(fault, run, met, failed_beside, stamp(alone)) if met else unknown)
-    page.write_text(HEAD + "\n".join(lines) + "\n", encoding="utf-8")
+    head = HEAD.replace("CHANGING", str(sum("changes" in run for run in runs)))
+    page.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
     recovery.write(told, page.with_name("BENCHMARKS.md"))
 
 

@@ -107,13 +107,8 @@ impl Run {
             if host == Host::Drives && !asked.is_empty() {
                 self.send(Payload::Welcome(Welcome::new(&asked)));
             }
-            if self.ms.is_multiple_of(33) {
-                let wheels = Wheels { left: WheelTimer::from_speed(0.05), right: WheelTimer::from_speed(0.05) };
-                let mut commands = Commands { validity_ms: 80, ..Commands::default() };
-                commands.wheels[1..=3].fill(Some(wheels));
-                if host != Host::Recorded {
-                    self.send(Payload::Commands(commands));
-                }
+            if self.ms.is_multiple_of(33) && host != Host::Recorded {
+                self.send(forward());
             }
             if host == Host::Recorded && self.ms.is_multiple_of(20) && !self.said.is_empty() {
                 let line = self.said[self.played % self.said.len()].clone();
@@ -123,6 +118,14 @@ impl Run {
         }
         std::array::from_fn(|robot| place(&self.bed, robot) - before[robot])
     }
+}
+
+/// Everybody at 50 mm/s.
+fn forward() -> Payload {
+    let wheels = Wheels { left: WheelTimer::from_speed(0.05), right: WheelTimer::from_speed(0.05) };
+    let mut commands = Commands { validity_ms: 80, ..Commands::default() };
+    commands.wheels[1..=3].fill(Some(wheels));
+    Payload::Commands(commands)
 }
 
 fn off(from: u64, to: u64) -> (u64, u64, FaultKind) {
@@ -218,10 +221,7 @@ fn a_robot_switched_on_anew_counts_from_zero() {
             });
         }
         if end.is_multiple_of(33) && end < 1300 {
-            let wheels = Wheels { left: WheelTimer::from_speed(0.05), right: WheelTimer::from_speed(0.05) };
-            let mut commands = Commands { validity_ms: 80, ..Commands::default() };
-            commands.wheels[1..=3].fill(Some(wheels));
-            run.send(Payload::Commands(commands));
+            run.send(forward());
         }
     }
     let (one, two) = (last[1].unwrap(), last[2].unwrap());

@@ -1,7 +1,7 @@
 //! The field seen from above: x to the right and y upwards at the same scale.
 
 use super::axes::short;
-use super::clip::clip;
+use super::extensions::{self, draw_extensions};
 use super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
 use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
@@ -9,7 +9,8 @@ use plotters::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use trench_bag::run::{Pose, Run};
-use trench_msgs::msg::{Queue, Segment};
+use trench_formation::curve::Curve;
+use trench_msgs::msg::Segment;
 use trench_plan::curve_from_message;
 
 /// A chart in the map, m.
@@ -22,16 +23,12 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
-/// Extensions of open queues are drawn so far, m: to the edge of any picture.
-const FAR: f64 = 1e3;
 /// What a legend says of things that are not robots: a table knows no segments, and the goal points' ways stand for them.
-pub(super) fn notes(run: &Run) -> &'static str {
-    let is_open = |queue: &Queue| queue.segment.open_start || queue.segment.open_end;
-    match &run.formation {
-        Some(formation) if formation.queues.iter().any(is_open) => "× vertex,  - - - segment,  · · · its open end",
-        Some(_) => "× vertex,  - - - segment",
-        None => "× end of the goal point's way (grey)",
-    }
+pub(super) fn notes(run: &Run) -> String {
+    let Some(formation) = &run.formation else { return "× end of the goal point's way (grey)".to_owned() };
+    let curves = formation.queues.iter().filter_map(|queue| curve_from_message(&queue.segment).ok());
+    let curves: Vec<Curve> = curves.collect();
+    format!("× vertex,  - - - segment{}", extensions::note(curves.iter()))
 }
 
 /// The part of the map that a picture shows.
@@ -95,11 +92,8 @@ pub(super) fn draw_reference(chart: &mut FieldChart<'_, '_>, run: &Run) -> Resul
     for queue in formation.flat_map(|formation| &formation.queues) {
         let series = DashedLineSeries::new(points_of(&queue.segment), 5 * UNIT, 4 * UNIT, line(REFERENCE, 1));
         chart.draw_series(series).map_err(text)?;
-        for extension in extensions(&queue.segment) {
-            for part in clip(&extension, window) {
-                let dots = DashedLineSeries::new(part, 2 * UNIT, 5 * UNIT, line(REFERENCE.mix(0.7), 1));
-                chart.draw_series(dots).map_err(text)?;
-            }
+        if let Ok(curve) = curve_from_message(&queue.segment) {
+            draw_extensions(chart, &curve, window)?;
         }
     }
     for track in run.robots.values().filter(|_| run.formation.is_none()) {
@@ -120,15 +114,6 @@ pub(super) fn draw_robot(chart: &mut FieldChart<'_, '_>, pose: &Pose, colour: RG
     let front = vec![(pose.x, pose.y), at(pose.theta)];
     chart.draw_series([PathElement::new(front, line(BLACK.mix(0.75), 2))]).map_err(text)?;
     Ok(())
-}
-
-/// What lies beyond the open ends of a queue, as far as pictures may reach, m.
-fn extensions(segment: &Segment) -> Vec<[(f64, f64); 2]> {
-    let Ok(curve) = curve_from_message(segment) else { return Vec::new() };
-    let ends = [(segment.open_start, 0.0, -FAR), (segment.open_end, curve.length(), curve.length() + FAR)];
-    let point = |at: f64| curve.at(at).point;
-    let open = ends.into_iter().filter(|(is_open, ..)| *is_open);
-    open.map(|(_, end, beyond)| [end, beyond].map(point).map(|point| (point.x, point.y))).collect()
 }
 
 /// A segment as a chain of straight pieces.

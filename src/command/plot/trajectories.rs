@@ -12,7 +12,7 @@ pub(super) fn draw(run: &Run, span: (f64, f64), times: &[f64]) -> Picture {
     let view = View::of(run);
     picture((WIDTH, view.height(WIDTH) + LEGEND as u32), |area| {
         let (top, field) = area.split_vertically(LEGEND);
-        legend(&top, run.robots.keys(), notes(run))?;
+        legend(&top, run.robots.keys(), &notes(run))?;
         let mut chart = view.chart(&field)?;
         draw_reference(&mut chart, run)?;
         for (index, track) in run.robots.values().enumerate() {

@@ -1,7 +1,6 @@
 //! Laws within what robots can do (9.2), with the safety filter that ends them.
 
-use super::{assert_near, folder, leader_distances, scenario};
-use std::fs;
+use super::{assert_near, leader_distances, scenario, scenario_with, text};
 use trench_scenario::{CaseSummary, Measures, Sample, Scenario, Simulation, Summary, parse};
 
 /// 9.2: what the robots can do, 1.2 m/s and 5 m/s^2, is never exceeded; bodies of 0.5 m touch nothing, and the chain stands in its order.
@@ -28,12 +27,9 @@ fn bounded_chain_of_6_5() {
 /// and all come to their goal points.
 #[test]
 fn bounded_tracking_of_5_6() {
-    let text = fs::read_to_string(folder().join("5.6_bounded.yaml")).unwrap();
     for speed in [1.0, 0.0] {
         let (old, new) = ("speed: 1.0                 # m/s\n  amplitude", format!("speed: {speed:?}\n  amplitude"));
-        assert!(text.contains(old));
-        let text = text.replace(old, &new);
-        let scenario = parse("5.6_bounded.yaml", &text).unwrap();
+        let scenario = scenario_with("5.6_bounded.yaml", &[(old, &new)]);
         // Goal points on their wave: up to hypot(1, 0.5) m/s and 0.25 m/s^2.
         let ([fastest, hardest], summary) = hardest(&scenario);
         assert!(fastest <= 2.0 + speed * 1.25_f64.sqrt() + 1e-9, "{fastest} m/s");
@@ -49,7 +45,7 @@ fn bounded_tracking_of_5_6() {
 /// Two robots that have to change places: without the filter their bodies touch, with it they pass each other and come to their goal points.
 #[test]
 fn without_the_filter_bodies_that_change_places_touch() {
-    let text = fs::read_to_string(folder().join("5.6_bounded.yaml")).unwrap();
+    let text = text("5.6_bounded.yaml");
     let kept = text.lines().filter(|line| !line.starts_with("- {error:") && !line.starts_with("- {figure:"));
     let kept = kept.filter(|line| !line.starts_with("figures:"));
     let robots = ["- {error: [-3.0, 0.3]}", "- {error: [3.0, -0.3]}"];

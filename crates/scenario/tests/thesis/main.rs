@@ -20,9 +20,28 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../config/scenarios")
 }
 
+fn text(name: &str) -> String {
+    fs::read_to_string(folder().join(name)).unwrap()
+}
+
 fn scenario(name: &str) -> Scenario {
-    let text = fs::read_to_string(folder().join(name)).unwrap();
-    parse(name, &text).unwrap_or_else(|error| panic!("{error}"))
+    scenario_with(name, &[])
+}
+
+/// A file that is changed in places that must be there.
+fn scenario_with(name: &str, changes: &[(&str, &str)]) -> Scenario {
+    let changed = changes.iter().fold(text(name), |text, (old, new)| {
+        assert!(text.contains(old), "{name}: {old}");
+        text.replace(old, new)
+    });
+    parse(name, &changed).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What is said of a file that a change in the first place where it can be made spoils.
+fn refusal(name: &str, old: &str, new: &str) -> String {
+    let text = text(name);
+    assert!(text.contains(old), "{name}: {old}");
+    parse(name, &text.replacen(old, new, 1)).unwrap_err().to_string()
 }
 
 /// Runs a scenario and gives the samples at the times asked for besides.

@@ -1,7 +1,6 @@
 //! Chapter 8: the linear queue laws, A.22, Remarks 8.4.1 and 6.2.1.
 
-use super::{folder, run_scenario, run_with, scenario};
-use std::fs;
+use super::{refusal, run_scenario, run_with, scenario, text};
 use trench_formation::Vector2;
 use trench_formation::stability::{Coupling, QueueRobot, cascade_bounds};
 use trench_scenario::{CaseSummary, Queue, Sample, Task, parse};
@@ -97,9 +96,7 @@ fn queues_that_are_none_are_refused() {
         ),
         ("6.2.1_recovery.yaml", "range: 6.0", "range: 0.0", "recovery.range"),
     ] {
-        let text = fs::read_to_string(folder().join(file)).unwrap();
-        assert!(text.contains(old), "{old}");
-        let error = parse(file, &text.replacen(old, new, 1)).unwrap_err().to_string();
+        let error = refusal(file, old, new);
         assert!(error.contains(expected) && error.contains(file), "{error}");
     }
 }
@@ -170,7 +167,7 @@ fn robots_behind_a_broken_link_go_to_their_places() {
         }
     }
     // The same without a break goes otherwise, so it is the remark that is seen; and both end in the places.
-    let text = fs::read_to_string(folder().join(name)).unwrap();
+    let text = text(name);
     let (links, robots) = (text.find("broken_links:").unwrap(), text.find("robots:  ").unwrap());
     let whole = parse(name, &[&text[..links], &text[robots..]].concat()).unwrap();
     let (unbroken, others) = run_scenario(&whole, &moments);

@@ -1,8 +1,7 @@
 //! 3.1: Hilare robots that are driven by the torques of their wheels.
 
-use super::{folder, run_scenario};
-use std::fs;
-use trench_scenario::{Sample, Scenario, Summary, parse};
+use super::{refusal, run_scenario, scenario_with};
+use trench_scenario::{Sample, Scenario, Summary};
 
 const FILE: &str = "3.1_wheels.yaml";
 const ROBOTS: usize = 4;
@@ -12,15 +11,6 @@ const STRONG: usize = 1;
 const WEAK: usize = 2;
 /// N m of the weak motors.
 const MOST: f64 = 0.6;
-
-fn scenario_with(changes: &[(&str, &str)]) -> Scenario {
-    let mut text = fs::read_to_string(folder().join(FILE)).unwrap();
-    for (old, new) in changes {
-        assert!(text.contains(old), "{old}");
-        text = text.replace(old, new);
-    }
-    parse(FILE, &text).unwrap()
-}
 
 fn run(scenario: &Scenario) -> (Summary, Vec<Vec<Sample>>) {
     let times: Vec<f64> = (1..=40).map(|half| 0.5 * f64::from(half)).collect();
@@ -41,7 +31,7 @@ fn largest(kept: &[Vec<Sample>], case: usize) -> f64 {
 #[test]
 fn unsaturated_wheels_make_the_hand_a_double_integrator() {
     let at = |step: &str| {
-        let (summary, kept) = run(&scenario_with(&[("step: 0.002 ", &format!("step: {step} "))]));
+        let (summary, kept) = run(&scenario_with(FILE, &[("step: 0.002 ", &format!("step: {step} "))]));
         for robot in &summary.cases[STRONG].robots {
             let wheels = robot.wheels.unwrap();
             assert!(wheels.saturated == 0.0 && wheels.greatest_torque > MOST, "{robot:?}");
@@ -57,7 +47,7 @@ fn unsaturated_wheels_make_the_hand_a_double_integrator() {
 /// Weak motors saturate at the start, so their robots go elsewhere than the double integrators, and come to the same in the end.
 #[test]
 fn weak_motors_saturate_and_arrive_all_the_same() {
-    let (summary, kept) = run(&scenario_with(&[]));
+    let (summary, kept) = run(&scenario_with(FILE, &[]));
     let weak = &summary.cases[WEAK].robots;
     assert!(weak.iter().any(|robot| robot.wheels.unwrap().saturated > 0.05), "{weak:?}");
     assert!(largest(&kept, WEAK) > 0.1, "saturation is to be seen");
@@ -67,10 +57,10 @@ fn weak_motors_saturate_and_arrive_all_the_same() {
 /// Motors that just have what was asked for never saturate, and the run is that without a bound, bit for bit.
 #[test]
 fn torque_to_spare_changes_nothing() {
-    let (summary, strong) = run(&scenario_with(&[]));
+    let (summary, strong) = run(&scenario_with(FILE, &[]));
     let wanted = summary.cases[STRONG].robots.iter().map(|robot| robot.wheels.unwrap().greatest_torque);
     let more = 1.01 * wanted.fold(0.0, f64::max);
-    let (_, enough) = run(&scenario_with(&[("wheel_torque: 20.0", &format!("wheel_torque: {more}"))]));
+    let (_, enough) = run(&scenario_with(FILE, &[("wheel_torque: 20.0", &format!("wheel_torque: {more}"))]));
     let hands = |kept: &[Vec<Sample>]| {
         let places = kept.iter().flat_map(|samples| samples[ROBOTS * STRONG..ROBOTS * WEAK].to_vec());
         places.flat_map(|sample| [sample.position.x.to_bits(), sample.position.y.to_bits()]).collect::<Vec<u64>>()
@@ -80,7 +70,6 @@ fn torque_to_spare_changes_nothing() {
 
 #[test]
 fn wheels_that_are_none_are_refused() {
-    let text = fs::read_to_string(folder().join(FILE)).unwrap();
     for (old, new, expected) in [
         ("wheel_torque: 0.6}", "wheel_torque: 0.0}", "plant.wheel_torque"),
         ("half_track: 0.15,", "half_track: -0.15,", "plant.half_track"),
@@ -88,8 +77,7 @@ fn wheels_that_are_none_are_refused() {
         ("wheel_radius: 0.05,", "", "wheel_radius"),
         ("kind: wheels", "kind: hilare", "half_track"),
     ] {
-        assert!(text.contains(old), "{old}");
-        let error = parse(FILE, &text.replacen(old, new, 1)).unwrap_err().to_string();
+        let error = refusal(FILE, old, new);
         assert!(error.contains(expected), "{error}");
     }
 }

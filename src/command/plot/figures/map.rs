@@ -2,6 +2,7 @@
 
 use super::super::axes::short;
 use super::super::clip::clip;
+use super::super::extensions::draw_extensions;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
 use super::arrow::arrow;
 use super::obstacles;
@@ -10,6 +11,7 @@ use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use trench_formation::Vector2;
+use trench_formation::curve::Curve;
 use trench_scenario::{Scenario, Task};
 
 /// A chart in the map, m.
@@ -95,11 +97,8 @@ impl Field {
             let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));
             chart.draw_series(dashes).map_err(text)?;
         }
-        for extension in extensions(scenario, 2.0 * ((right - left) + (top - bottom))) {
-            for part in clip(&extension, window) {
-                let dots = DashedLineSeries::new(part, 2 * UNIT, 5 * UNIT, line(REFERENCE.mix(0.7), 1));
-                chart.draw_series(dots).map_err(text)?;
-            }
+        if let Some(curve) = curve(scenario) {
+            draw_extensions(&mut chart, curve, window)?;
         }
         obstacles::draw(&mut chart, scenario, window, until)?;
         // Those named first are drawn last: where paths are the same, they are seen.
@@ -172,17 +171,13 @@ fn team_goal(scenario: &Scenario) -> impl Iterator<Item = (f64, f64)> {
     goal.into_iter().map(|goal: Vector2<f64>| (goal.x, goal.y))
 }
 
-/// What lies beyond open ends, as far as `length` (m): straight along the tangents there, without end (2.1).
-pub(super) fn extensions(scenario: &Scenario, length: f64) -> Vec<[(f64, f64); 2]> {
-    let curve = match &scenario.task {
-        Task::Nearest(chain, _) => &chain.segment,
-        Task::Queue(task) => &task.queue.segment,
-        _ => return Vec::new(),
-    };
-    let (from, to) = curve.domain();
-    let ends = [(from, 0.0, -length), (to, curve.length(), curve.length() + length)];
-    let open = ends.into_iter().filter(|(domain, ..)| domain.is_infinite());
-    open.map(|(_, end, beyond)| [end, beyond].map(|at| curve.at(at).point).map(|point| (point.x, point.y))).collect()
+/// The segment along which robots stand, where it may be open.
+pub(super) fn curve(scenario: &Scenario) -> Option<&Curve> {
+    match &scenario.task {
+        Task::Nearest(chain, _) => Some(&chain.segment),
+        Task::Queue(task) => Some(&task.queue.segment),
+        _ => None,
+    }
 }
 
 fn segment(scenario: &Scenario) -> Vec<(f64, f64)> {

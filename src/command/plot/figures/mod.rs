@@ -8,6 +8,7 @@ mod obstacles;
 mod select;
 mod wedge;
 
+use super::extensions;
 use super::style::{Area, LEGEND, Picture, REFERENCE, UNIT, centred, font, line, picture, text, titled};
 use diagram::Diagram;
 use map::Field;
@@ -112,7 +113,7 @@ fn field_notes(scenario: &Scenario, arrows: Option<f64>) -> String {
         }
         (_, robot) => format!("{},  - - - segment,  × goal of r1", robot.unwrap_or("● start,  ■ end".to_owned())),
     };
-    let open = if map::extensions(scenario, 1.0).is_empty() { "" } else { ",  · · · its open end" };
+    let open = extensions::note(map::curve(scenario).into_iter());
     [signs.replacen("- - - segment", &format!("- - - segment{open}"), 1), obstacles::notes(scenario)].join("\n")
 }
 
