@@ -39,8 +39,8 @@ impl Timer {
         if self.armed == at {
             return Ok(None);
         }
-        // All zero means "never" to the kernel: a time at the very start of the clock becomes its first nanosecond.
-        let nanoseconds = at.map_or(0, |at| at.0.max(1));
+        // All zero means "never" to the kernel; what is to come is later than that.
+        let nanoseconds = at.map_or(0, |at| at.0);
         let value = Timespec {
             tv_sec: i64::try_from(nanoseconds / 1_000_000_000).unwrap_or(i64::MAX),
             tv_nsec: (nanoseconds % 1_000_000_000) as i64,

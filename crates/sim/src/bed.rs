@@ -309,11 +309,9 @@ impl Bed {
                 FaultKind::Silent { robots } => cuts.silent.extend(robots),
                 FaultKind::Off { robots } => {
                     cuts.silent.extend(robots);
-                    switched.iter_mut().enumerate().filter(|(robot, _)| robots.contains(robot)).for_each(
-                        |(_, state)| {
-                            *state = Switched::Off;
-                        },
-                    );
+                    for robot in robots {
+                        switched.get_mut(*robot).into_iter().for_each(|state| *state = Switched::Off);
+                    }
                 }
                 FaultKind::Doubled { robot, like } => {
                     if let (Some(state), Some(id)) = (switched.get_mut(*robot), ids.get(*like)) {

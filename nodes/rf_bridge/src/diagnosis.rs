@@ -60,20 +60,16 @@ impl RfBridge {
             |robot: &Robot, fault: Fault| robot.monitor.report().is_some_and(|report| report.fault.0 & fault.0 != 0);
         let problems = [
             ("two radios answer as", self.named(|robot| robot.twins.are_two(now))),
-            ("switched on anew", self.named(|robot| robot.monitor.is_anew(now))),
-            ("not heard", self.named(|robot| !robot.monitor.up(now, UNHEARD.min(self.tuning.silence)))),
-            ("low battery", self.named(|robot| reports(robot, Fault::LOW_BATTERY))),
-            ("missed steps", self.named(|robot| reports(robot, Fault::MISSED_STEPS))),
-            ("poor link", self.named(|robot| robot.monitor.is_poor())),
-            ("forged or spoilt packets at", self.named(|robot| reports(robot, Fault::NOT_AUTHENTIC))),
-            ("replayed packets at", self.named(|robot| reports(robot, Fault::REPLAYED))),
+            ("switched on anew:", self.named(|robot| robot.monitor.is_anew(now))),
+            ("not heard:", self.named(|robot| !robot.monitor.up(now, UNHEARD.min(self.tuning.silence)))),
+            ("low battery:", self.named(|robot| reports(robot, Fault::LOW_BATTERY))),
+            ("missed steps:", self.named(|robot| reports(robot, Fault::MISSED_STEPS))),
+            ("poor link:", self.named(|robot| robot.monitor.is_poor())),
+            ("forged or spoilt packets at:", self.named(|robot| reports(robot, Fault::NOT_AUTHENTIC))),
+            ("replayed packets at:", self.named(|robot| reports(robot, Fault::REPLAYED))),
         ];
         let named = problems.iter().filter(|(_, robots)| !robots.is_empty());
-        let text = |(problem, robots): &(&str, String)| match problem.ends_with(" as") {
-            true => format!("{problem} {robots}"),
-            false => format!("{problem}: {robots}"),
-        };
-        let texts: Vec<String> = named.map(text).collect();
+        let texts: Vec<String> = named.map(|(problem, robots)| format!("{problem} {robots}")).collect();
         match texts.as_slice() {
             [] => (Condition::Ok, "all robots are heard".to_owned()),
             // Of an error the next message tells at once; and such a robot is lost to the team.

@@ -103,7 +103,6 @@ impl<'a> Placed<'a> {
         self.map_from_curve.rotation * direction
     }
 
-    /// A point of the curve's frame.
     /// A point of the curve's frame in that in which it moves, m.
     pub fn point_to_map(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.transform_point(&point.into()).coords

@@ -79,19 +79,18 @@ fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<(PointState, f6
 /// What the law acts on: double integrators, or a body, perhaps by the torques of its wheels.
 fn plant(map: &Map<'_>) -> Result<Option<Plant>, ConfigError> {
     let Some(map) = map.opt_map("plant")? else { return Ok(None) };
-    let kind = map.one_of("kind", &[("double_integrator", 0), ("hilare", 1), ("wheels", 2)])?;
-    let plant = match kind {
-        0 => None,
-        _ => {
-            let body = Hilare {
+    let kinds = [("double_integrator", None), ("hilare", Some(false)), ("wheels", Some(true))];
+    let plant = match map.one_of("kind", &kinds)? {
+        None => None,
+        Some(has_motors) => Some(Plant {
+            body: Hilare {
                 mass: positive(&map, "mass")?,
                 inertia: positive(&map, "inertia")?,
                 mass_offset: map.get_or("mass_offset", 0.0)?,
                 hand_offset: hand_offset(&map)?,
-            };
-            let drive = if kind == 2 { Some(drive(&map)?) } else { None };
-            Some(Plant { body, drive })
-        }
+            },
+            drive: if has_motors { Some(drive(&map)?) } else { None },
+        }),
     };
     map.finish()?;
     Ok(plant)

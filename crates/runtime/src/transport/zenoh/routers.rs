@@ -11,8 +11,8 @@ use zenoh::session::{LinkEvent, TransportEvent};
 pub(super) enum ConnectionChange {
     /// This process reaches somebody there.
     Link { name: String, at: String },
-    /// A router is reached, or no longer: its process ended, or the connection did.
-    Router { name: String, is_there: bool },
+    /// A router is no longer reached: its process ended, or the connection did.
+    RouterGone { name: String },
 }
 
 impl ConnectionChange {
@@ -23,12 +23,11 @@ impl ConnectionChange {
         new.then(|| Self::Link { name: link.zid().to_string(), at: link.dst().to_string() })
     }
 
-    /// Of a connection to a router.
+    /// Of a connection to a router that ends; of one that is new its link has said where.
     pub(super) fn of_transport(event: &TransportEvent) -> Option<Self> {
         let transport = event.transport();
-        let is_there = event.kind() == SampleKind::Put;
-        let of_router = transport.whatami() == WhatAmI::Router;
-        of_router.then(|| Self::Router { name: transport.zid().to_string(), is_there })
+        let ends = event.kind() == SampleKind::Delete && transport.whatami() == WhatAmI::Router;
+        ends.then(|| Self::RouterGone { name: transport.zid().to_string() })
     }
 }
 
@@ -51,7 +50,7 @@ impl Routers {
                 }
                 self.places.insert(name, at);
             }
-            ConnectionChange::Router { name, is_there: false } => {
+            ConnectionChange::RouterGone { name } => {
                 let Some(at) = self.places.remove(&name) else { return };
                 // One that was started again may have been told of before its last life's end.
                 let is_there_again = self.places.values().any(|place| *place == at);
@@ -59,7 +58,6 @@ impl Routers {
                     changes.push(GraphChange::Router { at, is_there: false });
                 }
             }
-            ConnectionChange::Router { is_there: true, .. } => {}
         }
     }
 }
@@ -72,8 +70,8 @@ mod tests {
         ConnectionChange::Link { name: name.to_owned(), at: at.to_owned() }
     }
 
-    fn router(name: &str, is_there: bool) -> ConnectionChange {
-        ConnectionChange::Router { name: name.to_owned(), is_there }
+    fn gone(name: &str) -> ConnectionChange {
+        ConnectionChange::RouterGone { name: name.to_owned() }
     }
 
     #[test]
@@ -85,15 +83,13 @@ mod tests {
             changes
         };
         let told = |is_there| vec![GraphChange::Router { at: "tcp/10.0.0.1:7447".to_owned(), is_there }];
-        assert_eq!(follow(router("a", true)), []);
         assert_eq!(follow(link("a", "tcp/10.0.0.1:7447")), []);
         assert_eq!(follow(link("peer", "tcp/10.0.0.2:40000")), []);
-        assert_eq!(follow(router("a", false)), told(false));
-        assert_eq!(follow(router("a", false)), []);
+        assert_eq!(follow(gone("a")), told(false));
+        assert_eq!(follow(gone("a")), []);
         assert_eq!(follow(link("b", "tcp/10.0.0.1:7447")), told(true));
-        assert_eq!(follow(router("b", true)), []);
         assert_eq!(follow(link("c", "tcp/10.0.0.1:7447")), []);
-        assert_eq!(follow(router("b", false)), [], "its next life is there already");
-        assert_eq!(follow(router("c", false)), told(false));
+        assert_eq!(follow(gone("b")), [], "its next life is there already");
+        assert_eq!(follow(gone("c")), told(false));
     }
 }
