@@ -69,6 +69,16 @@ pub enum Event<'a> {
         /// How many writers there are now.
         writers: usize,
     },
+    /// A writer of a subscription was matched, or it has gone: it ended, or the network lost it, and may find it again.
+    /// [`Event::Matched`] follows. In lock-step runs nobody comes or goes.
+    Presence {
+        /// Index into `Interface::subscriptions`.
+        port: usize,
+        /// The `gid` of its [`Source`].
+        gid: [u8; 16],
+        /// Whether it came.
+        is_there: bool,
+    },
     /// The time asked for by `NodeCore::next_wakeup` has come.
     Wakeup,
     /// The process is about to end: last words (zero commands, for example).

@@ -1,6 +1,6 @@
 //! The trait of all node cores.
 
-use crate::{Discovered, Event, Interface, Sink, Steady, Subscribe, Times};
+use crate::{Discovered, Event, Interface, RosTime, Sink, Steady, Subscribe, Times};
 use trench_config::{ConfigError, Parameters};
 
 /// What a core knows of the process it lives in when it is made.
@@ -14,6 +14,9 @@ pub struct NodeContext {
     pub checkpoint: Option<Vec<u8>>,
     /// The host's seed for what must differ between runs (identifiers, epochs); fixed in simulation and replay.
     pub seed: u64,
+    /// The host's wall clock when the node was made, whatever clock its times are of: for what must go up from one life to
+    /// the next. Zero in simulation.
+    pub wall: RosTime,
 }
 
 /// Why a core refuses to start.

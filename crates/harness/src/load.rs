@@ -131,7 +131,8 @@ pub(crate) fn instance_of(
     journals: Option<&Journals>,
 ) -> Result<Instance, LoadError> {
     let names = Names::new(&arguments.remaps, node.name);
-    let context = NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), checkpoint: None, seed };
+    let context =
+        NodeContext { namespace: names.namespace.clone(), name: names.node.clone(), seed, ..NodeContext::default() };
     let core = trench_journal::build(node, &context, parameters, files, &names, journals)
         .map_err(|error| LoadError::Start { label: process.label.clone(), error: Box::new(error) })?;
     Ok(Instance { default_name: node.name.to_owned(), remaps: arguments.remaps, core })

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use trench_core::Times;
 
 /// The version of what stands in the container.
-pub(crate) const FORMAT: u32 = 1;
+pub(crate) const FORMAT: u32 = 2;
 /// The channel that all is on.
 pub(crate) const CHANNEL: &str = "steps";
 

@@ -77,6 +77,7 @@ pub fn build(
         name: context.name.clone(),
         checkpoint: context.checkpoint.clone(),
         seed: context.seed,
+        wall: context.wall.0,
         parameters: kept(parameters),
         files: files.into_texts(),
         ports: Ports::of(core.interface(), names),

@@ -77,6 +77,8 @@ pub enum Input<'a> {
     Shutdown,
     /// `NodeCore::set_parameters` with all values after the change; its times are those of the event before it.
     SetParameters(Vec<Parameter>),
+    /// [`Event::Presence`]
+    Presence { port: usize, gid: [u8; 16], is_there: bool },
 }
 
 /// A call of the sink, or an answer of the core.
@@ -155,6 +157,7 @@ impl<'a> Input<'a> {
             Event::Bytes { stream, data } => Self::Bytes { stream, data },
             Event::StreamState { stream, open } => Self::StreamState { stream, open },
             Event::Matched { port, writers } => Self::Matched { port, writers },
+            Event::Presence { port, gid, is_there } => Self::Presence { port, gid, is_there },
             Event::Wakeup => Self::Wakeup,
             Event::Shutdown => Self::Shutdown,
         }
@@ -173,6 +176,7 @@ impl<'a> Input<'a> {
             Self::Bytes { stream, data } => Event::Bytes { stream, data },
             Self::StreamState { stream, open } => Event::StreamState { stream, open },
             Self::Matched { port, writers } => Event::Matched { port, writers },
+            Self::Presence { port, gid, is_there } => Event::Presence { port, gid, is_there },
             Self::Wakeup => Event::Wakeup,
             Self::Shutdown => Event::Shutdown,
             Self::Message { payload: Payload::Reference { .. }, .. } | Self::SetParameters(_) => return None,

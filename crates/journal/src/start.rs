@@ -4,7 +4,7 @@ use crate::value::ValueDefinition;
 use serde::{Deserialize, Serialize};
 use trench_config::{Origin, ParameterDescriptor, ParameterValue, Parameters};
 use trench_core::arguments::{NameKind, Names};
-use trench_core::{ByteStream, Interface, NodeContext};
+use trench_core::{ByteStream, Interface, NodeContext, RosTime};
 
 /// All that a core was made from, and what it was connected to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -21,6 +21,8 @@ pub struct Start {
     pub checkpoint: Option<Vec<u8>>,
     /// As in [`NodeContext`].
     pub seed: u64,
+    /// As in [`NodeContext`], ns.
+    pub wall: i64,
     /// All parameters with the values in force.
     pub parameters: Vec<Parameter>,
     /// The files that were read.
@@ -127,6 +129,7 @@ impl Start {
             name: self.name.clone(),
             checkpoint: self.checkpoint.clone(),
             seed: self.seed,
+            wall: RosTime(self.wall),
         }
     }
 

@@ -16,6 +16,7 @@ fn start() -> Start {
         name: "echo".to_owned(),
         checkpoint: Some(vec![1, 2]),
         seed: 7,
+        wall: 7,
         parameters: Vec::new(),
         files: Vec::new(),
         ports: Ports::default(),

@@ -1,7 +1,7 @@
 //! From a command line to a running process.
 
 use crate::checkpoint::Checkpoint;
-use crate::clock::Clock;
+use crate::clock::{self, Clock};
 use crate::exit::Exit;
 use crate::help;
 use crate::journals::journals;
@@ -236,6 +236,7 @@ fn build(
         name: names.node.clone(),
         checkpoint: checkpoint.read()?,
         seed: seed()?,
+        wall: clock::wall_now(),
     };
     Ok(trench_journal::build(&description, &context, parameters, &Disk, names, journals)?)
 }

@@ -6,7 +6,7 @@
 use crate::node::{Connections, Node, Subscription};
 use crate::rhythm::Rhythm;
 use crate::transport::TransportError;
-use crate::transport::network::{GraphChange, NetworkReader};
+use crate::transport::network::{Gid, GraphChange, NetworkReader};
 use crate::transport::shared_memory::Host;
 use rustdds::mio1::{Events, Interest, Poll, Registry, Token};
 use std::io;
@@ -180,25 +180,36 @@ impl Topics {
     pub(crate) fn graph_changed(&mut self, change: &GraphChange, nodes: &mut [Node]) {
         match change {
             GraphChange::Matched { reader, writers } => {
-                let index = self.all.iter().position(|topic| topic.subscription.network.gid() == *reader);
-                let Some(index) = index else { return };
+                let Some(index) = self.index_of(reader) else { return };
                 self.debug(index, nodes, &format!("{writers} writer(s)"));
-                for listener in &self.all[index].listeners {
-                    if let (Some(node), Heard::Port(port)) = (nodes.get_mut(listener.node), listener.what) {
-                        node.handle(Event::Matched { port, writers: *writers });
-                    }
-                }
+                self.tell(index, nodes, |port| Event::Matched { port, writers: *writers });
+            }
+            GraphChange::Presence { reader, writer, is_there } => {
+                let Some(index) = self.index_of(reader) else { return };
+                self.tell(index, nodes, |port| Event::Presence { port, gid: *writer, is_there: *is_there });
             }
             GraphChange::Writer { topic, type_name, .. } => self.look_at_writer(topic, type_name, nodes),
             GraphChange::Incompatible { reader, writer } => {
-                let index = self.all.iter().position(|topic| topic.subscription.network.gid() == *reader);
-                if let Some(index) = index {
+                if let Some(index) = self.index_of(reader) {
                     self.warn(index, nodes, |topic| {
                         format!("{topic}: the quality of service of writer {writer:02x?} does not suffice")
                     });
                 }
             }
             GraphChange::Readers { .. } | GraphChange::Router { .. } => {}
+        }
+    }
+
+    fn index_of(&self, reader: &Gid) -> Option<usize> {
+        self.all.iter().position(|topic| topic.subscription.network.gid() == *reader)
+    }
+
+    /// Brings an event of a topic to all that read it, each with its own port.
+    fn tell(&self, index: usize, nodes: &mut [Node], event: impl Fn(usize) -> Event<'static>) {
+        for listener in &self.all[index].listeners {
+            if let (Some(node), Heard::Port(port)) = (nodes.get_mut(listener.node), listener.what) {
+                node.handle(event(port));
+            }
         }
     }
 

@@ -44,8 +44,7 @@ impl RfBridge {
             self.halt_but(turning);
         }
         // Robots count as age what a packet takes beyond the usual, so that alone is subtracted here.
-        let usual = self.downlink.duration(self.robots.len()).max(USUAL_AGE as f64 * 1e-9);
-        let transport = usual + self.tuning.radio_delay;
+        let line = self.downlink.duration(self.robots.len()).max(USUAL_AGE as f64 * 1e-9);
         let (mut commands, mut validity) = (Commands::default(), self.tuning.frame_age);
         for robot in &mut self.robots {
             // Whose place is known is not who drives: both stand.
@@ -53,7 +52,7 @@ impl RfBridge {
                 robot.halt();
             }
             let slot = &mut commands.wheels[usize::from(robot.id)];
-            match robot.order(at.steady, transport, &self.tuning) {
+            match robot.order(at.steady, line, &self.tuning) {
                 Order::Drive(wheels, left) => {
                     *slot = Some(wheels);
                     validity = validity.min(left);

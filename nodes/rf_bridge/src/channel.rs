@@ -17,6 +17,9 @@ const ALARM: f64 = 12.0;
 /// Without anything to do for so long, s, the bridge was held up, and reports may have been lost on its own threshold.
 const HELD_UP: f64 = 0.25;
 
+/// What came while it was held up is read within this time, s.
+const CATCHING_UP: f64 = 0.05;
+
 /// More evidence than this is not kept, so that the end is found as soon as the beginning.
 const MOST: f64 = 2.0 * ALARM;
 
@@ -27,6 +30,8 @@ pub(crate) struct Channel {
     bad: bool,
     /// Since when the bridge hears whatever comes, and until when it is known to.
     attentive: (Steady, Steady),
+    /// The last time without anything to do, s, and when it ended.
+    idle: (f64, Steady),
 }
 
 impl Channel {
@@ -43,13 +48,23 @@ impl Channel {
     /// The bridge does something: it was not held up.
     pub(crate) fn attend(&mut self, now: Steady) {
         let (since, until) = self.attentive;
-        let held_up = now.seconds_since(until) > HELD_UP;
-        self.attentive = (if held_up { now } else { since }, now);
+        let idle = now.seconds_since(until);
+        self.attentive = (if idle > HELD_UP { now } else { since }, now);
+        if idle > self.idle.0 || now.seconds_since(self.idle.1) > CATCHING_UP {
+            self.idle = (idle, now);
+        }
     }
 
     /// From when on no report is missed by the bridge's own fault.
     pub(crate) fn attentive_since(&self) -> Steady {
         self.attentive.0
+    }
+
+    /// For how long, s, what is read now may have waited because the bridge was held up; 0 where it did something in every
+    /// `heartbeat` seconds, as it wants to.
+    pub(crate) fn held_up(&self, now: Steady, heartbeat: f64) -> f64 {
+        let (idle, ended) = self.idle;
+        if idle > 1.2 * heartbeat && now.seconds_since(ended) <= CATCHING_UP { idle } else { 0.0 }
     }
 
     /// Whether it is bad; good again once all evidence of the contrary is outweighed.

@@ -3,13 +3,13 @@
 use crate::channel::Channel;
 use crate::downlink::{Downlink, STREAM};
 use crate::interface::{COMMANDS, DIAGNOSTICS, EMERGENCY_STOP, RUN_STATE};
-use crate::robot::Robot;
+use crate::robot::{Dated, Robot};
 use crate::run::Run;
 use crate::settings::Tuning;
 use crate::stop::EmergencyStop;
 use crate::welcome::Hellos;
 use trench_config::{ConfigError, Parameters};
-use trench_core::{Event, Health, Interface, Level, Master, NodeCore, Refusals, Sink, Source, Steady, Times};
+use trench_core::{Event, Health, Interface, Level, Master, NodeCore, Refusals, RosTime, Sink, Source, Steady, Times};
 use trench_msgs::Message;
 use trench_msgs::cdr::CdrError;
 use trench_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -32,6 +32,8 @@ pub struct RfBridge {
     pub(crate) stamped: bool,
     pub(crate) robots: Vec<Robot>,
     pub(crate) downlink: Downlink,
+    /// The host's clock when the node was made.
+    pub(crate) wall: RosTime,
     pub(crate) decoder: StreamDecoder,
     pub(crate) errors: ErrorCounts,
     /// Whether the air loses more than it does by chance.
@@ -40,6 +42,8 @@ pub struct RfBridge {
     pub(crate) relays: RelayList,
     pub(crate) hellos: Hellos,
     pub(crate) open: bool,
+    /// When the base station answered last; or when the port was opened.
+    pub(crate) answered: Option<Steady>,
     pub(crate) run: Run,
     /// Who writes /identify.
     pub(crate) localizer: Master,
@@ -69,9 +73,7 @@ impl RfBridge {
             RUN_STATE => {
                 let was_running = self.run.is_running();
                 self.run.hear(source.gid, &RunState::decode(cdr)?);
-                if was_running && !self.run.is_running() {
-                    self.halt(at, sink);
-                }
+                self.rest_unless_running(at, was_running, sink);
                 if self.run.is_disputed() {
                     let text =
                         "publishers of /run_state contradict each other: another publisher says that nothing runs";
@@ -94,15 +96,16 @@ impl RfBridge {
                 }
             }
             _ => {
-                let (twist, stamp) = if self.stamped {
+                let (twist, dated) = if self.stamped {
                     let command = TwistStamped::decode(cdr)?;
-                    let stamp = (&command.header.stamp).into();
-                    (command.twist, Some(stamp))
+                    (command.twist, Dated::Stamp((&command.header.stamp).into()))
                 } else {
-                    (Twist::decode(cdr)?, None)
+                    // What waited while nobody read it is older than it looks.
+                    let age = self.tuning.unstamped_age + self.channel.held_up(at.steady, self.tuning.heartbeat);
+                    (Twist::decode(cdr)?, Dated::Age(age))
                 };
                 let Some(robot) = self.robots.get_mut(port - COMMANDS) else { return Ok(()) };
-                match robot.accept(at, source, &twist, stamp, &self.tuning) {
+                match robot.accept(at, source, &twist, dated, &self.tuning) {
                     Ok(()) => self.gather(at, sink),
                     Err(refusal) => {
                         let text = format!("a command for {} was dropped: {refusal}", robot.name);
@@ -112,6 +115,13 @@ impl RfBridge {
             }
         }
         Ok(())
+    }
+
+    /// What anybody said of the run may have changed.
+    fn rest_unless_running(&mut self, at: Times, was_running: bool, sink: &mut dyn Sink) {
+        if was_running && !self.run.is_running() {
+            self.halt(at, sink);
+        }
     }
 
     fn wake(&mut self, at: Times, sink: &mut dyn Sink) {
@@ -137,6 +147,7 @@ impl RfBridge {
 
     fn stream(&mut self, at: Times, open: bool, sink: &mut dyn Sink) {
         self.open = open;
+        self.answered = Some(at.steady);
         self.decoder.reset();
         if open {
             sink.log(Level::Info, "the serial port is open");
@@ -159,7 +170,7 @@ impl NodeCore for RfBridge {
         self.channel.attend(at.steady);
         match event {
             Event::Started => {
-                self.downlink.start(at);
+                self.downlink.start(at, self.wall);
                 if self.downlink.key().is_none() {
                     sink.log(Level::Info, &format!("key_file names no key: {NO_KEY}"));
                 }
@@ -188,6 +199,12 @@ impl NodeCore for RfBridge {
                     self.diagnose(at.steady);
                 }
             }
+            Event::Presence { port: RUN_STATE, gid, is_there } => {
+                let was_running = self.run.is_running();
+                self.run.presence(gid, is_there);
+                self.rest_unless_running(at, was_running, sink);
+            }
+            Event::Presence { port: EMERGENCY_STOP, gid, is_there: false } => self.stop.left(gid),
             Event::Wakeup => self.wake(at, sink),
             Event::Shutdown => {
                 self.run.forget();

@@ -8,11 +8,19 @@ use trench_radio::Fault;
 /// A robot that has not been heard for so long is named, s: three of its reports. Its link is down only after `silence`.
 const UNHEARD: f64 = 0.35;
 
+/// The base station answers each packet: without any answer for so long, s, and three packets, it is not there.
+const UNANSWERED: f64 = 0.3;
+
 impl RfBridge {
     /// Brings all parts up to date.
     pub(crate) fn diagnose(&mut self, now: Steady) {
-        let (condition, text) =
-            if self.open { (Condition::Ok, "open") } else { (Condition::Error, "closed: nothing reaches the robots") };
+        let unanswered =
+            self.answered.is_some_and(|last| now.seconds_since(last) > UNANSWERED.max(3.0 * self.tuning.heartbeat));
+        let (condition, text) = match (self.open, unanswered) {
+            (true, false) => (Condition::Ok, "open"),
+            (true, true) => (Condition::Error, "open, but no base station answers: it may be off, or another device"),
+            (false, _) => (Condition::Error, "closed: nothing reaches the robots"),
+        };
         self.health.set("serial port", condition, text);
         self.health.value("serial port", "frames", self.decoder.frames());
         for (name, count) in self.decoder.errors().iter().chain(self.errors.iter()) {

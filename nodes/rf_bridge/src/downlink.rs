@@ -1,7 +1,7 @@
 //! Packets to the robots: counters that never go back, and a line that is never filled ahead.
 
 use std::collections::VecDeque;
-use trench_core::{Sink, Steady, Times};
+use trench_core::{RosTime, Sink, Steady, Times};
 use trench_radio::framing::DELIMITER;
 use trench_radio::{COUNTER_LIMIT, COUNTER_TICK, Key, LinkFrame, Packet, Payload, Relaying};
 
@@ -65,10 +65,11 @@ impl Downlink {
         }
     }
 
-    /// Starts at a counter that is beyond those of earlier lives even if they left nothing: that of the wall clock. From
-    /// there on counters follow the monotonic clock, so that robots can tell by them how old a packet is.
-    pub(crate) fn start(&mut self, at: Times) {
-        let by_clock = at.ros.0.max(0).unsigned_abs() / COUNTER_TICK;
+    /// Starts at a counter that is beyond those of earlier lives even if they left nothing: that of this host's `wall` clock, since
+    /// ROS time may be another host's, or a simulation's, and still be zero. From there on counters follow the monotonic clock, so
+    /// that robots can tell by them how old a packet is.
+    pub(crate) fn start(&mut self, at: Times, wall: RosTime) {
+        let by_clock = at.ros.0.max(wall.0).max(0).unsigned_abs() / COUNTER_TICK;
         self.counter = self.counter.max(by_clock % COUNTER_LIMIT);
         self.origin = self.counter.saturating_sub(at.steady.0 / COUNTER_TICK);
     }
@@ -136,7 +137,7 @@ impl Downlink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_core::{Action, Outbox, RosTime};
+    use trench_core::{Action, Outbox};
     use trench_radio::{RobotSet, StreamDecoder};
 
     /// The counters of the packets that were written.
@@ -156,11 +157,12 @@ mod tests {
     #[test]
     fn counters_go_up_across_lives_whatever_the_clock_says() {
         let (mut promised, mut highest) = (0, 0);
-        for (clock, at_start) in [(0, 0), (1 << 40, 7_000_000_000), (0, 1 << 50), (-5, 3)] {
+        let lives = [(0, 0, 0), (1 << 40, 0, 7_000_000_000), (0, 0, 1 << 50), (-5, 0, 3), (0, 1 << 60, 3)];
+        for (clock, wall, at_start) in lives {
             let clock = RosTime(clock);
             let mut outbox = Outbox::default();
             let mut downlink = Downlink::new(None, 115_200, promised);
-            downlink.start(Times { ros: clock, steady: Steady(at_start) });
+            downlink.start(Times { ros: clock, steady: Steady(at_start) }, RosTime(wall));
             for at in 0..5000 {
                 let now = Steady(at_start + at * 20_000_000);
                 if downlink.extend_promise(now) {
@@ -170,6 +172,7 @@ mod tests {
             }
             let counters = counters(&outbox);
             assert_eq!(counters.len(), 5000);
+            assert!(counters[0] >= wall.unsigned_abs() / COUNTER_TICK, "whatever ROS time is");
             assert!(counters[0] > highest && counters.is_sorted_by(|earlier, later| earlier < later));
             // Counters tell the time: 4999 intervals of 20 ms.
             assert!((counters[4999] - counters[0]).abs_diff(4999 * 20_000_000 / COUNTER_TICK) <= 1);

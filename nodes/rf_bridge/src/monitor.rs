@@ -34,6 +34,8 @@ pub(crate) struct Monitor {
     /// When, packets the robot had received (wraps), packets sent before the last of them.
     window: VecDeque<(Steady, u16, u64)>,
     round_trip: f64,
+    /// When, and how long a packet and the report that names it took, s.
+    round_trips: VecDeque<(Steady, f64)>,
     received: u64,
     /// When it said first what only a robot says that was switched on since its last report.
     anew: Option<Steady>,
@@ -67,6 +69,7 @@ impl Monitor {
         if self.report().is_some_and(|last| switched_on_between(last, &report)) {
             self.anew = Some(at.steady);
             self.window.clear();
+            self.round_trips.clear();
         }
         self.heard = Some(Heard { at: at.steady, ros: at.ros, report, relayed });
         let before = self.window.back().copied();
@@ -75,9 +78,11 @@ impl Monitor {
             self.window.pop_front();
         }
         if let Some(sent) = sent.filter(|_| report.last_age_ms < u8::MAX) {
-            let round_trip = at.steady.seconds_since(sent.at) - 1e-3 * f64::from(report.last_age_ms);
+            let round_trip = (at.steady.seconds_since(sent.at) - 1e-3 * f64::from(report.last_age_ms)).max(0.0);
             let weight = if self.round_trip == 0.0 { 1.0 } else { SMOOTHING };
-            self.round_trip += weight * (round_trip.max(0.0) - self.round_trip);
+            self.round_trip += weight * (round_trip - self.round_trip);
+            self.round_trips.retain(|(then, _)| at.steady.seconds_since(*then) <= WINDOW);
+            self.round_trips.push_back((at.steady, round_trip));
         }
         // Of a robot that was silent for long nobody knows why.
         let before = before.filter(|(then, ..)| at.steady.seconds_since(*then) <= WINDOW);
@@ -85,6 +90,12 @@ impl Monitor {
             let reached = u64::from(report.received.wrapping_sub(received));
             (reached, sent.before.saturating_sub(sent_before).saturating_sub(reached))
         })
+    }
+
+    /// The shortest round trip of the second before its last report, s; 0 before any is known. No packet took longer than its own
+    /// round trip.
+    pub(crate) fn least_round_trip(&self) -> f64 {
+        self.round_trips.iter().map(|(_, round_trip)| *round_trip).reduce(f64::min).unwrap_or(0.0)
     }
 
     /// How many more reports are overdue than were when this was asked before; `since`: from when on they would have been heard.

@@ -14,6 +14,10 @@ use trench_radio::{WheelTimer, Wheels};
 /// A stamp this far ahead of the clock is no stamp, s.
 const FUTURE: f64 = 0.05;
 
+/// A command that would be obeyed for less time than this, s, is not worth sending: frames come every 33 ms, and the time that one
+/// frame gives holds for all robots in it.
+const SHORTEST: f64 = 0.04;
+
 /// A robot without a command for this long is not waited for, s.
 const EXPECTED: f64 = 0.2;
 
@@ -30,6 +34,11 @@ pub(crate) enum Refusal {
     Old,
     #[error("it is stamped in the future")]
     Future,
+    #[error(
+        "it has no stamp, so nobody knows how old it is: fill header.stamp (`ros2 topic pub`: `header: auto`), or set stamped to \
+         false and send Twist"
+    )]
+    Unstamped,
 }
 
 /// A command that was taken.
@@ -41,6 +50,15 @@ struct Command {
     age: f64,
     v: f64,
     omega: f64,
+}
+
+/// How old what a command rests on is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Dated {
+    /// It says so.
+    Stamp(RosTime),
+    /// It has no stamp, and is taken for so old, s.
+    Age(f64),
 }
 
 /// What a frame says to one robot.
@@ -100,7 +118,7 @@ impl Robot {
         at: Times,
         source: Source,
         twist: &Twist,
-        stamp: Option<RosTime>,
+        dated: Dated,
         tuning: &Tuning,
     ) -> Result<(), Refusal> {
         self.master.check(source, at.steady, tuning.silence).map_err(|_| Refusal::Master)?;
@@ -113,9 +131,12 @@ impl Robot {
         if v.abs() > tuning.max_v || omega.abs() > tuning.max_omega {
             return Err(Refusal::OutOfRange);
         }
-        // A stamp of zero is ROS's way to leave it out.
-        let stamp = stamp.filter(|stamp| stamp.0 != 0);
-        let age = stamp.map_or(tuning.unstamped_age, |stamp| at.ros.seconds_since(stamp));
+        let (stamp, age) = match dated {
+            // ROS's way to leave it out.
+            Dated::Stamp(RosTime(0)) => return Err(Refusal::Unstamped),
+            Dated::Stamp(stamp) => (Some(stamp), at.ros.seconds_since(stamp)),
+            Dated::Age(age) => (None, age),
+        };
         if age < -FUTURE {
             return Err(Refusal::Future);
         }
@@ -154,8 +175,10 @@ impl Robot {
         self.dither.reset();
     }
 
-    /// What the next frame tells it, `transport` seconds after which it arrives at the latest.
-    pub(crate) fn order(&mut self, now: Steady, transport: f64, tuning: &Tuning) -> Order {
+    /// What the next frame tells it. It arrives after `line` seconds at the latest, and the time in the air; or, where that is more,
+    /// after what a report and the packet that it names took lately: whoever holds all packets back does not make them younger.
+    pub(crate) fn order(&mut self, now: Steady, line: f64, tuning: &Tuning) -> Order {
+        let transport = line.max(self.monitor.least_round_trip()) + tuning.radio_delay;
         let obeying = self.driven_at.is_some_and(|at| now.seconds_since(at) <= tuning.frame_age);
         let Some(command) = self.command.take() else {
             if obeying {
@@ -166,7 +189,7 @@ impl Robot {
         };
         let waited = now.seconds_since(command.received);
         let left = (tuning.information_age - command.age - waited - transport).min(tuning.frame_age);
-        if waited > tuning.command_age || left <= 0.0 {
+        if waited > tuning.command_age || left < SHORTEST.min(tuning.frame_age) {
             self.expired += 1;
             self.halt();
             return Order::Stop;

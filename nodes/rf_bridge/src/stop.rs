@@ -50,7 +50,13 @@ impl EmergencyStop {
         self.silent_since.is_some_and(|since| now.seconds_since(since) < HAND_ON_BUTTON)
     }
 
-    /// So many publishers are alive: of those known, the ones that have been silent for longest are presumed gone.
+    /// A publisher has gone, and what it said with it.
+    pub(crate) fn left(&mut self, publisher: [u8; 16]) {
+        self.words.remove(&publisher);
+    }
+
+    /// So many publishers are alive: of those known, the ones that have been silent for longest are presumed gone where nobody says
+    /// who it was.
     pub(crate) fn writers(&mut self, count: usize, now: Steady) {
         let came = count > self.writers;
         self.writers = count;
@@ -98,6 +104,11 @@ mod tests {
         stop.hear(button, true);
         stop.writers(2, Steady(0));
         assert!(stop.reset().is_err());
+        // Who has gone is known: not the one that has been silent for longest.
+        stop.hear(keyboard, false);
+        stop.left(keyboard);
+        stop.writers(1, Steady(0));
+        assert!(stop.reset().is_err(), "the button still says stop");
         stop.writers(0, Steady(0));
         assert!(stop.active() && stop.reset().is_ok() && !stop.active());
     }

@@ -3,19 +3,29 @@
 use crate::core::RfBridge;
 use crate::interface::{BATTERY, LINK, ODOMETRY, RANGES, REPORTS};
 use crate::report;
-use trench_core::{Sink, Times};
-use trench_radio::{LinkFrame, Packet, Payload, Telemetry};
+use trench_core::{Sink, Steady, Times};
+use trench_radio::{Ack, AckStatus, LinkFrame, Packet, Payload, Telemetry};
 
 impl RfBridge {
     pub(crate) fn hear(&mut self, at: Times, data: &[u8], sink: &mut dyn Sink) {
         let mut decoder = std::mem::take(&mut self.decoder);
-        decoder.push(data, |frame| {
-            if let LinkFrame::Uplink { packet, .. } = frame {
-                self.hear_packet(at, packet, sink);
-            }
+        decoder.push(data, |frame| match frame {
+            LinkFrame::Uplink { packet, .. } => self.hear_packet(at, packet, sink),
+            LinkFrame::Ack(ack) => self.hear_answer(at.steady, ack),
+            LinkFrame::Downlink { .. } => {}
         });
         self.decoder = decoder;
         self.miss(at);
+    }
+
+    /// The base station says what became of a packet.
+    fn hear_answer(&mut self, now: Steady, ack: Ack) {
+        self.answered = Some(now);
+        match ack.status {
+            AckStatus::Sent => {}
+            AckStatus::Refused => self.errors.count("refused_by_the_base"),
+            AckStatus::Expired => self.errors.count("expired_at_the_base"),
+        }
     }
 
     /// Counts reports that did not come in their slots: what lies between the base station and the bridge has just been read.

@@ -1,5 +1,7 @@
 //! Bridge and test bed together: twists in, robots that move, and the many ways in which they must stop.
 
+#[path = "cases/ages.rs"]
+mod ages;
 #[path = "cases/air.rs"]
 mod air;
 mod common;
@@ -12,7 +14,7 @@ mod turns;
 
 use common::{Loop, MS, Texts, strings};
 use trench_config::ParameterValue::{Bool, Double, String as Text};
-use trench_core::{Action, Level, NodeContext, RosTime};
+use trench_core::{Action, Level, NodeContext, RosTime, Times};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::geometry_msgs::TwistStamped;
 use trench_msgs::msg::{DiscArray, LinkStatus, RunState};
@@ -188,10 +190,13 @@ fn old_commands_and_foreign_masters_are_refused() {
     assert_eq!(both.place(1).0, 0.4);
     both.drive(10, 2, 0.07, 0.0);
     let x = both.place(1).0;
-    let mut foreign = TwistStamped::default();
-    foreign.twist.linear.x = -0.08;
+    let foreign = |now: Times| {
+        let mut foreign = TwistStamped::default();
+        (foreign.header.stamp, foreign.twist.linear.x) = (now.ros.into(), -0.08);
+        foreign
+    };
     for _ in 0..10 {
-        both.publish("/robot1/cmd_vel", 77, &foreign);
+        both.publish("/robot1/cmd_vel", 77, &foreign(both.times()));
         both.command(2, 0.07, 0.0, 40);
         both.run(33);
     }
@@ -199,7 +204,7 @@ fn old_commands_and_foreign_masters_are_refused() {
     both.run(600);
     let x = both.place(1).0;
     for _ in 0..10 {
-        both.publish("/robot1/cmd_vel", 77, &foreign);
+        both.publish("/robot1/cmd_vel", 77, &foreign(both.times()));
         both.run(33);
     }
     assert!(both.place(1).0 < x - 0.01, "its master has gone: another may command it");

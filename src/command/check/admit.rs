@@ -18,7 +18,7 @@ pub(super) fn launched(plan: &Plan) -> Result<(), CheckError> {
 pub(super) fn controller(namespace: &str, parameters: &Parameters) -> Result<(), CheckError> {
     let node = catalog::node(CONTROLLER).ok_or(CheckError::NoNode(CONTROLLER))?;
     let context =
-        NodeContext { namespace: namespace.to_owned(), name: CONTROLLER.to_owned(), checkpoint: None, seed: 1 };
+        NodeContext { namespace: namespace.to_owned(), name: CONTROLLER.to_owned(), seed: 1, ..NodeContext::default() };
     let mut parameters = parameters.clone();
     leave_gains_to_verdicts(&node, &mut parameters);
     (node.build)(&context, &parameters, &Disk)?;

@@ -27,7 +27,7 @@ impl Node {
                 self.ports.publications.iter_mut().for_each(|topic| topic.readers_changed(writer, readers));
             }
             GraphChange::Router { at, is_there } => self.router_changed(at, *is_there),
-            GraphChange::Writer { .. } | GraphChange::Incompatible { .. } => {}
+            GraphChange::Presence { .. } | GraphChange::Writer { .. } | GraphChange::Incompatible { .. } => {}
         }
     }
 

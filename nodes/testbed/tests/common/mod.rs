@@ -81,6 +81,8 @@ pub(crate) struct Loop {
     pub(crate) now: u64,
     /// Bytes that went down the line, with the times.
     pub(crate) down: Vec<(u64, Vec<u8>)>,
+    /// Whether bytes pass the line.
+    pub(crate) is_connected: bool,
     sequence: u64,
 }
 
@@ -109,6 +111,7 @@ impl Loop {
             testbed: Node::new(&testbed::description(), &of_testbed, files),
             now: 1_000 * MS,
             down: Vec::new(),
+            is_connected: true,
             sequence: 0,
         };
         this.tell_testbed(Event::Started);
@@ -132,7 +135,9 @@ impl Loop {
         let written: Vec<Vec<u8>> = self.bridge.outbox.actions[before..].iter().filter_map(bytes).collect();
         for bytes in written {
             self.down.push((self.now, bytes.clone()));
-            self.tell_testbed(Event::Bytes { stream: 0, data: &bytes });
+            if self.is_connected {
+                self.tell_testbed(Event::Bytes { stream: 0, data: &bytes });
+            }
         }
     }
 
@@ -140,8 +145,8 @@ impl Loop {
         let (at, before) = (self.times(), self.testbed.outbox.actions.len());
         self.testbed.core.handle(at, event, &mut self.testbed.outbox);
         let written: Vec<Vec<u8>> = self.testbed.outbox.actions[before..].iter().filter_map(bytes).collect();
-        for bytes in written {
-            self.tell_bridge(Event::Bytes { stream: 0, data: &bytes });
+        for bytes in written.iter().filter(|_| self.is_connected).collect::<Vec<_>>() {
+            self.tell_bridge(Event::Bytes { stream: 0, data: bytes });
         }
     }
 
@@ -167,13 +172,37 @@ impl Loop {
         self.tell_testbed(Event::Wakeup);
     }
 
+    /// Lets time go on for the test bed alone: the bridge is held up, and hears afterwards what came meanwhile.
+    pub(crate) fn run_without_bridge(&mut self, milliseconds: u64) {
+        let end = self.now + milliseconds * MS;
+        let before = self.testbed.outbox.actions.len();
+        while let Some(at) = self.testbed.core.next_wakeup().map(|at| at.0.max(self.now)).filter(|at| *at <= end) {
+            self.now = at;
+            let times = self.times();
+            self.testbed.core.handle(times, Event::Wakeup, &mut self.testbed.outbox);
+        }
+        self.now = end;
+        let written: Vec<u8> = self.testbed.outbox.actions[before..].iter().filter_map(bytes).flatten().collect();
+        self.noise_up(&written);
+    }
+
+    /// A publisher comes, or has gone.
+    pub(crate) fn presence(&mut self, topic: &str, publisher: u8, is_there: bool) {
+        let port = self.port_of(topic);
+        self.tell_bridge(Event::Presence { port, gid: [publisher; 16], is_there });
+    }
+
     /// A message to the bridge, from the publisher with this number.
     pub(crate) fn publish(&mut self, topic: &str, publisher: u8, message: &dyn Encode) {
-        let subscriptions = &self.bridge.core.interface().subscriptions;
-        let port = subscriptions.iter().position(|s| s.topic == topic).unwrap_or_else(|| panic!("{topic}"));
+        let port = self.port_of(topic);
         self.sequence += 1;
         let source = Source { gid: [publisher; 16], sequence: self.sequence };
         self.tell_bridge(Event::Message { port, source, cdr: &message.to_cdr(), arrived: None });
+    }
+
+    fn port_of(&self, topic: &str) -> usize {
+        let subscriptions = &self.bridge.core.interface().subscriptions;
+        subscriptions.iter().position(|s| s.topic == topic).unwrap_or_else(|| panic!("{topic}"))
     }
 
     pub(crate) fn run_state(&mut self, state: u8) {
@@ -186,12 +215,15 @@ impl Loop {
 
     /// The same command for robots 1 to `count`, resting on an exposure `age_ms` ago.
     pub(crate) fn command(&mut self, count: usize, v: f64, omega: f64, age_ms: u64) {
-        for robot in 1..=count {
-            let mut command = TwistStamped::default();
-            command.header.stamp = RosTime(EPOCH + self.now as i64 - (age_ms * MS) as i64).into();
-            (command.twist.linear.x, command.twist.angular.z) = (v, omega);
-            self.publish(&format!("/robot{robot}/cmd_vel"), robot as u8, &command);
-        }
+        (1..=count).for_each(|robot| self.command_to(robot, v, omega, age_ms));
+    }
+
+    /// The same for one robot.
+    pub(crate) fn command_to(&mut self, robot: usize, v: f64, omega: f64, age_ms: u64) {
+        let mut command = TwistStamped::default();
+        command.header.stamp = RosTime(EPOCH + self.now as i64 - (age_ms * MS) as i64).into();
+        (command.twist.linear.x, command.twist.angular.z) = (v, omega);
+        self.publish(&format!("/robot{robot}/cmd_vel"), robot as u8, &command);
     }
 
     /// Commands at 30 Hz for so many camera frames.

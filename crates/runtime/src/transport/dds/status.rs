@@ -25,6 +25,7 @@ impl StatusReader {
             Status::RemoteWriterMatched { local_reader, remote_writer } => {
                 let writers = self.writers_of.entry(local_reader).or_default();
                 if writers.insert(remote_writer) {
+                    changes.push(presence(local_reader, remote_writer, true));
                     changes.push(GraphChange::Matched { reader: gid(local_reader), writers: writers.len() });
                 }
             }
@@ -55,12 +56,14 @@ impl StatusReader {
 
     fn forget(&mut self, lost: impl Fn(&GUID) -> bool, changes: &mut Vec<GraphChange>) {
         for (reader, writers) in &mut self.writers_of {
-            if remove(writers, &lost) {
+            let gone = remove(writers, &lost);
+            if !gone.is_empty() {
+                changes.extend(gone.into_iter().map(|writer| presence(*reader, writer, false)));
                 changes.push(GraphChange::Matched { reader: gid(*reader), writers: writers.len() });
             }
         }
         for (writer, readers) in &mut self.readers_of {
-            if remove(readers, &lost) {
+            if !remove(readers, &lost).is_empty() {
                 changes.push(matched_readers(*writer, readers));
             }
         }
@@ -77,6 +80,10 @@ impl GraphWatch for StatusReader {
     }
 }
 
+fn presence(reader: GUID, writer: GUID, is_there: bool) -> GraphChange {
+    GraphChange::Presence { reader: gid(reader), writer: gid(writer), is_there }
+}
+
 fn matched_readers(writer: GUID, readers: &BTreeSet<GUID>) -> GraphChange {
     GraphChange::Readers { writer: gid(writer), readers: readers.iter().copied().map(gid).collect() }
 }
@@ -88,10 +95,8 @@ fn type_hash(user_data: &[u8]) -> String {
     entries.find_map(|entry| entry.trim().strip_prefix("typehash=")).unwrap_or_default().to_owned()
 }
 
-fn remove(endpoints: &mut BTreeSet<GUID>, lost: &impl Fn(&GUID) -> bool) -> bool {
-    let before = endpoints.len();
-    endpoints.retain(|endpoint| !lost(endpoint));
-    endpoints.len() != before
+fn remove(endpoints: &mut BTreeSet<GUID>, lost: &impl Fn(&GUID) -> bool) -> BTreeSet<GUID> {
+    endpoints.extract_if(.., |endpoint| lost(endpoint)).collect()
 }
 
 impl event::Source for StatusReader {

@@ -10,6 +10,8 @@ use trench_core::Qos;
 pub(crate) enum GraphChange {
     /// The number of writers matched to a reader changed.
     Matched { reader: Gid, writers: usize },
+    /// A writer was matched to a reader, or has gone; [`GraphChange::Matched`] follows.
+    Presence { reader: Gid, writer: Gid, is_there: bool },
     /// The readers matched to a writer changed.
     Readers { writer: Gid, readers: BTreeSet<Gid> },
     /// Another process writes a topic that some reader here may read. The type is the network's own word for it where

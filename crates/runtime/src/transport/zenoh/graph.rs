@@ -72,6 +72,10 @@ impl Ends {
             return;
         }
         if change.alive && own {
+            if entity.kind == Kind::Subscription {
+                let writers = self.alive.iter().filter(|(_, (other, _))| other.matches(&entity));
+                changes.extend(writers.map(|(writer, _)| presence(&change.key, writer, true)));
+            }
             self.tell(&change.key, &entity, changes);
         }
         if change.alive && !own && entity.kind == Kind::Publisher {
@@ -83,11 +87,14 @@ impl Ends {
             });
         }
         for (key, (other, _)) in self.alive.iter().filter(|(_, (other, own))| *own && other.matches(&entity)) {
+            if other.kind == Kind::Subscription {
+                changes.push(presence(key, &change.key, change.alive));
+            }
             self.tell(key, other, changes);
         }
     }
 
-    /// Tells one of our ends who is at the other.
+    /// Tells one of our ends who is at the other, by number.
     fn tell(&self, key: &str, entity: &Entity, changes: &mut Vec<GraphChange>) {
         let others = self.alive.iter().filter(|(_, (other, _))| other.matches(entity));
         let others: BTreeSet<Gid> = others.map(|(key, _)| gid(key)).collect();
@@ -100,6 +107,10 @@ impl Ends {
             Kind::Server => {}
         }
     }
+}
+
+fn presence(reader: &str, writer: &str, is_there: bool) -> GraphChange {
+    GraphChange::Presence { reader: gid(reader), writer: gid(writer), is_there }
 }
 
 #[cfg(test)]
@@ -131,12 +142,13 @@ mod tests {
         let (reader, writer) = (token("own", 1, Kind::Subscription), token("far", 1, Kind::Publisher));
         let matched = |writers| GraphChange::Matched { reader: gid(&reader), writers };
         assert_eq!(follow(&mut ends, &reader, true), [matched(0)]);
+        let presence = |is_there| presence(&reader, &writer, is_there);
         let found = follow(&mut ends, &writer, true);
         assert!(matches!(&found[0], GraphChange::Writer { topic, type_name, .. }
             if topic == "/chatter" && type_name == "std_msgs/msg/String"));
-        assert_eq!(found[1..], [matched(1)]);
+        assert_eq!(found[1..], [presence(true), matched(1)]);
         assert_eq!(follow(&mut ends, &writer, true), [], "told twice");
-        assert_eq!(follow(&mut ends, &writer, false), [matched(0)]);
+        assert_eq!(follow(&mut ends, &writer, false), [presence(false), matched(0)]);
         assert_eq!(follow(&mut ends, &writer, false), []);
     }
 
@@ -148,6 +160,7 @@ mod tests {
         let readers = BTreeSet::from([gid(&reader)]);
         let expected = [
             GraphChange::Readers { writer: gid(&writer), readers },
+            presence(&reader, &writer, true),
             GraphChange::Matched { reader: gid(&reader), writers: 1 },
         ];
         assert_eq!(follow(&mut ends, &writer, true), expected);
