@@ -215,8 +215,13 @@ impl NodeCore for LeaderAssignment {
                     self.keep(at, sink);
                 }
             }
-            // A clean end leaves nothing to go on with.
-            Event::Shutdown => sink.checkpoint(&[]),
+            Event::Shutdown => {
+                if self.run.end() {
+                    self.announce(at, sink);
+                }
+                // A clean end leaves nothing to go on with.
+                sink.checkpoint(&[]);
+            }
             _ => {}
         }
         self.refusals.settle(at.steady, &mut self.health);

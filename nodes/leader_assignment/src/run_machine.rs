@@ -83,6 +83,15 @@ impl RunMachine {
         Ok(self.reason.clone())
     }
 
+    /// The process ends, and the run with it. Gives whether it was running.
+    pub fn end(&mut self) -> bool {
+        let was_running = self.running();
+        if was_running {
+            self.enter(RunState::STOPPED, "leader_assignment has ended");
+        }
+        was_running
+    }
+
     /// Tells that all robots are localised at `stamp`; sets t0 the first time while running. Gives whether it was set.
     pub fn localised(&mut self, stamp: RosTime) -> bool {
         let first = self.running() && self.t0.is_none();
@@ -173,6 +182,14 @@ mod tests {
         let missing = Err("robot2 is not localised".to_owned());
         assert_eq!(machine.request(Request::Arm, missing).unwrap_err(), "robot2 is not localised");
         assert_eq!(machine.state(), RunState::IDLE);
+    }
+
+    #[test]
+    fn a_run_ends_with_its_process_and_what_does_not_run_stays_as_it_is() {
+        let mut running = machine_after(&[Request::Arm, Request::Start]);
+        assert!(running.end() && running.state() == RunState::STOPPED);
+        let mut armed = machine_after(&[Request::Arm]);
+        assert!(!armed.end() && armed.state() == RunState::ARMED);
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct RfBridge {
     pub(crate) interface: Interface,
     pub(crate) tuning: Tuning,
     pub(crate) ranges: usize,
+    /// What is wrong where the line is too slow for so many robots.
+    pub(crate) shortage: Option<String>,
     pub(crate) stamped: bool,
     pub(crate) robots: Vec<Robot>,
     pub(crate) downlink: Downlink,
@@ -173,6 +175,9 @@ impl NodeCore for RfBridge {
                 self.downlink.start(at, self.wall);
                 if self.downlink.key().is_none() {
                     sink.log(Level::Info, &format!("key_file names no key: {NO_KEY}"));
+                }
+                if let Some(shortage) = &self.shortage {
+                    sink.log(Level::Warn, shortage);
                 }
                 self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
                 if self.stop.active() {

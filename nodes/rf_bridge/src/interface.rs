@@ -1,5 +1,6 @@
 //! How the bridge is made and what it is connected to.
 
+use crate::capacity::shortage;
 use crate::channel::Channel;
 use crate::core::RfBridge;
 use crate::downlink::Downlink;
@@ -54,6 +55,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         interface: interface(&settings),
         tuning: settings.tuning,
         ranges: settings.ranges,
+        shortage: shortage(settings.robots.len(), settings.ranges, settings.key.is_some(), settings.baud),
         stamped: settings.stamped,
         robots: settings.robots.iter().map(|(name, id)| Robot::new(name.clone(), *id)).collect(),
         downlink: Downlink::new(settings.key, settings.baud, promised),

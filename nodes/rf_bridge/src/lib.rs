@@ -15,6 +15,7 @@
 //! not wanted in the present run state becomes silence or zero.
 
 mod broadcast;
+mod capacity;
 mod channel;
 mod core;
 mod diagnosis;

@@ -93,6 +93,7 @@ fn yesterday_s_run_does_not_go_on() {
     assert_eq!(state(&Bench::new(50.0, Some(died.checkpoint()))), RunState::IDLE, "from the future");
     let mut ended = Bench::running();
     ended.handle(Event::Shutdown);
+    assert_eq!(state(&ended), RunState::STOPPED, "nobody goes on by the word of who has ended");
     assert_eq!(state(&Bench::new(102.0, Some(ended.checkpoint()))), RunState::IDLE, "it ended cleanly");
     assert_eq!(state(&Bench::new(102.0, Some(vec![1, 2, 3]))), RunState::IDLE, "damaged");
 }
