@@ -32,7 +32,9 @@ struct Bench {
 
 impl Bench {
     fn new(core: Box<dyn NodeCore>) -> Self {
-        Self { core, now: 1000, wall: 100_000_000, told: Vec::new(), sent: BTreeMap::new() }
+        let mut bench = Self { core, now: 1000, wall: 100_000_000, told: Vec::new(), sent: BTreeMap::new() };
+        bench.handle(Event::Started);
+        bench
     }
 
     /// A stamp so many milliseconds ahead of now.
