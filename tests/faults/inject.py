@@ -1,5 +1,6 @@
 """What a fault run does over the network, and how it knows the time of the run."""
 
+import array
 import math
 import os
 import random
@@ -11,6 +12,12 @@ from functools import cached_property
 
 # Rate of what is published, Hz.
 RATE = 50.0
+# Of large ones one in so many turns; odd, so that what alternates with the turns does so for these, too.
+SELDOM = {"/overhead/image_raw": 9}
+# Topics that nobody reads, or only where robots have lasers: nobody waits until somebody does.
+UNREAD = ("/overhead/camera_info", "/robot1/scan")
+# Pixels of the overhead camera (config/cameras/overhead.yaml).
+CAMERA = (768, 576)
 
 
 class Ears:
@@ -74,14 +81,16 @@ def _now(ears: Ears):
 def _speak(ears: Ears, voices: list, seconds: float) -> float:
     """Publishes on several topics at once: kind, topic and what makes each message (or its bytes)."""
     publishers = [(ears.node.create_publisher(kind, topic, _quality(topic)), make) for kind, topic, make in voices]
+    awaited = [publisher for publisher, _ in publishers if publisher.topic_name not in UNREAD]
     deadline = time.monotonic() + 1.0
-    while any(publisher.get_subscription_count() < 1 for publisher, _ in publishers) and time.monotonic() < deadline:
+    while any(publisher.get_subscription_count() < 1 for publisher in awaited) and time.monotonic() < deadline:
         time.sleep(0.02)
     time.sleep(0.3)
     began, end, turn = time.time(), time.monotonic() + seconds, 0
     while time.monotonic() < end:
         for publisher, make in publishers:
-            publisher.publish(make(turn))
+            if turn % SELDOM.get(publisher.topic_name, 1) == 0:
+                publisher.publish(make(turn))
         turn += 1
         time.sleep(1.0 / RATE)
     for publisher, _ in publishers:
@@ -213,10 +222,40 @@ def _identify(stamp, place: float):
     return identify
 
 
+def _image(stamp, place: float):
+    """A black picture: nobody is there any more."""
+    from sensor_msgs.msg import Image
+
+    width, height = CAMERA
+    image = Image(width=width, height=height, encoding="rgb8", step=3 * width, data=array.array("B", bytes(3 * width * height)))
+    image.header.stamp, image.header.frame_id = stamp, "overhead_camera"
+    return image
+
+
+def _lens(stamp, place: float):
+    from sensor_msgs.msg import CameraInfo
+
+    width, height = CAMERA
+    lens = CameraInfo(width=width, height=height, distortion_model="plumb_bob", d=[place] * 5, k=[place] * 9, p=[place] * 12)
+    lens.header.stamp = stamp
+    return lens
+
+
+def _scan(stamp, place: float):
+    """A wall around robot1."""
+    from sensor_msgs.msg import LaserScan
+
+    scan = LaserScan(angle_increment=math.radians(1.0), range_min=0.1, range_max=3.5)
+    scan.ranges = array.array("f", [place if abs(place) < 1e30 else math.inf] * 360)
+    scan.header.stamp = stamp
+    return scan
+
+
 def _voices() -> list:
     """What robots are moved by: kind, topic, message from a stamp and a number."""
     from geometry_msgs.msg import TwistStamped
     from nav_msgs.msg import Odometry
+    from sensor_msgs.msg import CameraInfo, Image, LaserScan
     from trench_msgs.msg import (
         ApparentObstacleArray,
         Assignment,
@@ -243,6 +282,9 @@ def _voices() -> list:
         (Odometry, "/target", _target),
         (LinkStatus, "/robot2/link", _link),
         (Identify, "/identify", _identify),
+        (Image, "/overhead/image_raw", _image),
+        (CameraInfo, "/overhead/camera_info", _lens),
+        (LaserScan, "/robot1/scan", _scan),
     ]
 
 
@@ -250,6 +292,12 @@ def foreign_command(ears: Ears, seconds: float) -> float:
     """Somebody else drives robot1, fast."""
     kind, topic, make = _voices()[2]
     return _speak(ears, [(kind, topic, lambda _: make(_now(ears), 0.25))], seconds)
+
+
+def second_camera(ears: Ears, seconds: float) -> float:
+    """Somebody else's camera, of the same size and on time, shows that nobody is there."""
+    voices = [voice for voice in _voices() if voice[1].startswith("/overhead/")]
+    return _speak(ears, [(kind, topic, lambda _, make=make: make(_now(ears), 0.0)) for kind, topic, make in voices], seconds)
 
 
 def not_numbers(ears: Ears, seconds: float) -> float:
@@ -340,6 +388,6 @@ def emergency_stop(ears: Ears, seconds: float) -> float:
 INJECTIONS = {
     function.__name__: function
     for function in (
-        foreign_command, not_numbers, past_and_future, wrong_sizes, wrong_types, garbage_udp, emergency_stop,
+        foreign_command, second_camera, not_numbers, past_and_future, wrong_sizes, wrong_types, garbage_udp, emergency_stop,
     )
 }

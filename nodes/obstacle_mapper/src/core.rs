@@ -37,7 +37,7 @@ const HULLS: Local = Local::SharedMemory { max_len: 65_536 };
 const MOST_WAITING: usize = 64;
 /// How long they wait, s.
 const PATIENCE: f64 = 0.3;
-/// A scan so far ahead of time, s, comes from a wrong clock.
+/// A message so far ahead of time, s, comes from a wrong clock.
 const FUTURE: f64 = 0.5;
 
 /// Combines what all sources tell of.
@@ -48,6 +48,8 @@ pub struct ObstacleMapper {
     team: Team,
     /// Who writes /team_state.
     localizer: Master,
+    /// Who writes each robot's scans.
+    lasers: Vec<Master>,
     /// Scans that are newer than the last team state, with the robot and when they came.
     waiting: VecDeque<(usize, LaserScan, Steady)>,
     memory: Memory,
@@ -55,7 +57,7 @@ pub struct ObstacleMapper {
     health: Health,
     of_obstacles: Report,
     of_scans: Report,
-    /// Messages on /team_state that are none, or not the localizer's.
+    /// Messages on /team_state that are none or from the future, and those of publishers that do not count.
     refusals: Refusals,
     scans_taken: u64,
     wakeup: Option<Steady>,
@@ -99,6 +101,7 @@ impl ObstacleMapper {
         };
         Ok(Self {
             interface,
+            lasers: vec![Master::default(); settings.robots.len()],
             settings,
             sources: Sources::default(),
             team: Team::default(),
@@ -190,8 +193,10 @@ impl ObstacleMapper {
 
     fn poses(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
         let admitted = TeamState::decode(cdr).map_err(|error| error.to_string()).and_then(|message| {
-            let admitted = self.localizer.admit(source, at.steady);
-            admitted.map(|()| message).map_err(|error| error.to_string())
+            self.localizer.check(source, at.steady, Master::SILENCE).map_err(|error| error.to_string())?;
+            timely(at, &message.header)?;
+            self.localizer.pin(source, at.steady);
+            Ok(message)
         });
         match admitted {
             Ok(message) => {
@@ -199,21 +204,25 @@ impl ObstacleMapper {
                 self.take_scans(at, sink);
             }
             Err(error) => {
-                let what = format!("a message on /team_state was dropped: {error}");
-                self.refusals.tell(at.steady, TEAM, what, &mut self.health, sink);
+                self.refuse(at, TEAM, &error, sink);
             }
         }
     }
 
-    fn scan(&mut self, at: Times, robot: usize, cdr: &[u8], sink: &mut dyn Sink) {
-        let name = self.settings.robots.get(robot).map_or("?", String::as_str);
+    fn scan(&mut self, at: Times, port: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        let robot = port.saturating_sub(SCANS);
+        let Some(laser) = self.lasers.get_mut(robot) else { return };
+        if let Err(error) = laser.check(source, at.steady, Master::SILENCE) {
+            return self.refuse(at, port, &error.to_string(), sink);
+        }
         let checked = LaserScan::decode(cdr).map_err(|error| error.to_string()).and_then(|scan| {
             check(&scan)?;
-            let ahead = RosTime::from(&scan.header.stamp).seconds_since(at.ros);
-            if ahead > FUTURE { Err("its stamp is in the future".to_owned()) } else { Ok(scan) }
+            timely(at, &scan.header)?;
+            Ok(scan)
         });
         match checked {
             Ok(scan) => {
+                laser.pin(source, at.steady);
                 if self.waiting.len() == MOST_WAITING {
                     self.waiting.pop_front();
                 }
@@ -221,10 +230,17 @@ impl ObstacleMapper {
                 self.take_scans(at, sink);
             }
             Err(reason) => {
+                let name = self.settings.robots.get(robot).map_or("?", String::as_str);
                 let what = format!("a scan of {name} was dropped: {reason}");
                 self.of_scans.refuse(&what, &mut self.health, sink);
             }
         }
+    }
+
+    fn refuse(&mut self, at: Times, port: usize, why: &str, sink: &mut dyn Sink) {
+        let topic = self.interface.subscriptions.get(port).map_or("?", |reader| reader.topic.as_str());
+        let what = format!("a message on {topic} was dropped: {why}");
+        self.refusals.tell(at.steady, port, what, &mut self.health, sink);
     }
 
     /// Takes the scans whose robots' poses are known by now.
@@ -260,6 +276,12 @@ impl ObstacleMapper {
     }
 }
 
+/// Whether what a message tells of can have been by now. While ROS time is zero nobody knows (/clock has not begun).
+fn timely(at: Times, header: &Header) -> Result<(), String> {
+    let ahead = RosTime::from(&header.stamp).seconds_since(at.ros);
+    if at.ros != RosTime(0) && ahead > FUTURE { Err("its stamp is in the future".to_owned()) } else { Ok(()) }
+}
+
 /// An apparent obstacle with the velocity of its fastest member.
 fn to_message(apparent: &ApparentObstacle, known: &[Known]) -> msg::ApparentObstacle {
     let members = known.iter().filter(|known| apparent.members.contains(&known.id));
@@ -286,7 +308,7 @@ impl NodeCore for ObstacleMapper {
             Event::Matched { port: OBSTACLES, writers } => self.sources.connected(writers),
             Event::Message { port: OBSTACLES, source, cdr, .. } => self.obstacles(at, source.gid, cdr, sink),
             Event::Message { port: TEAM, source, cdr, .. } => self.poses(at, source, cdr, sink),
-            Event::Message { port, cdr, .. } => self.scan(at, port.saturating_sub(SCANS), cdr, sink),
+            Event::Message { port, source, cdr, .. } => self.scan(at, port, source, cdr, sink),
             _ => {}
         }
         self.refusals.settle(at.steady, &mut self.health);

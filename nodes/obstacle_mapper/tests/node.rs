@@ -310,6 +310,66 @@ fn a_stranger_on_team_state_is_told_of_steadily() {
     assert_eq!(heard(false).1, "none was dropped lately");
 }
 
+/// A second laser of one robot sees walls where none are: by turns with the first, with stamps of now, of later and of long ago.
+#[test]
+fn a_second_laser_of_a_robot_is_named_and_adds_nothing_until_the_first_is_silent() {
+    const ANOTHER: &str = "a message on /robot1/scan was dropped: another publisher writes this topic";
+    let mut bench = Bench::new(&[TWO]);
+    let places = [[0.5, 0.0], [0.5, 3.0]];
+    // What robot1's lasers see, and how many hulls there are then.
+    let mut hulls = |ours: bool, stranger: Option<f64>| {
+        bench.seconds += 0.05;
+        if ours {
+            let mut empty = scan(bench.header(), places[0], None);
+            empty.ranges.fill(f32::INFINITY);
+            bench.send("/robot1/scan", 10, &empty.to_cdr());
+        }
+        if let Some(ahead) = stranger {
+            let mut wall = scan(bench.header(), places[0], None);
+            wall.header.stamp = bench.now().plus_seconds(ahead).into();
+            bench.send("/robot1/scan", 99, &wall.to_cdr());
+        }
+        bench.team(&places);
+        let hulls = bench.wake().obstacles.len();
+        let told: DiagnosticArray = bench.out.last(2).unwrap();
+        let of =
+            |part: &str| told.status.iter().find(|status| status.name.ends_with(part)).map(|one| one.message.clone());
+        (hulls, of(": messages").unwrap(), of(": scans"))
+    };
+    for ahead in [0.0, -0.04, 0.9, 70.0, -3600.0] {
+        for tick in 0..40 {
+            let (seen, messages, scans) = hulls(true, Some(ahead));
+            assert_eq!(seen, 0, "{ahead} s, tick {tick}");
+            assert!(messages.starts_with(ANOTHER), "{ahead} s, tick {tick}: {messages}");
+            assert!(scans.is_none_or(|text| text == "scans are taken"), "{ahead} s, tick {tick}");
+        }
+    }
+    // Ours is silent. A laser from the future does not take its place.
+    for _ in 0..20 {
+        assert_eq!(hulls(false, Some(0.9)).0, 0);
+    }
+    assert_eq!(hulls(false, None).2.unwrap(), "a scan of robot1 was dropped: its stamp is in the future");
+    assert_eq!(hulls(true, None).0, 0, "ours, at once");
+    let taken_over = (1..=20).find(|_| hulls(false, Some(0.0)).0 > 0);
+    assert_eq!(taken_over, Some(11), "twentieths of a second");
+}
+
+/// Where robots were is not learnt from the future.
+#[test]
+fn a_team_state_from_the_future_is_named_and_hides_none_of_now() {
+    let mut bench = Bench::new(&[TWO]);
+    let places = [[0.5, 0.0], [0.5, 3.0]];
+    let header = Header { stamp: bench.now().plus_seconds(0.9).into(), ..Header::default() };
+    bench.send("/team_state", 99, &TeamState { header, ..TeamState::default() }.to_cdr());
+    let (level, text) = bench.condition("messages");
+    assert!(level == 1 && text == "a message on /team_state was dropped: its stamp is in the future", "{text}");
+    bench.seconds += 0.05;
+    let seen = scan(bench.header(), places[0], None);
+    bench.send("/robot1/scan", 10, &seen.to_cdr());
+    bench.team(&places);
+    assert_eq!(bench.wake().obstacles.len(), 1);
+}
+
 /// A hull is called like the least of its members (ApparentObstacle.msg): it keeps its name whoever else comes and leaves, and so do
 /// those beside it.
 #[test]

@@ -4,6 +4,7 @@ use crate::frozen::Frozen;
 use crate::gather::{Gather, Look};
 use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
+use crate::refusal::{Dropped, Refusal, timely};
 use crate::report::{PERIOD, Report};
 use crate::settings::{Input, Pattern, Settings, descriptors, foreign};
 use crate::stream::Stream;
@@ -11,7 +12,7 @@ use crate::track::{MapDisc, Tracker};
 use crate::{markers, messages, naming, pads, recalibrate};
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Durability, Event, Files, Health, Interface, Local, NodeContext, NodeCore, NodeDescription, Qos,
+    Advertise, Durability, Event, Files, Health, Interface, Local, Master, NodeContext, NodeCore, NodeDescription, Qos,
     Reliability, RosTime, Serve, Sink, Source, StartError, Steady, Times, resolve_name,
 };
 use trench_msgs::builtin_interfaces::Time;
@@ -56,6 +57,8 @@ pub struct OverheadLocalizer {
     settings: Settings,
     /// One a camera.
     intakes: Vec<Intake>,
+    /// Whose frames of each camera count.
+    masters: Vec<Master>,
     /// Of several cameras.
     gather: Option<Gather>,
     /// One a camera.
@@ -85,6 +88,7 @@ impl OverheadLocalizer {
         Ok(Self {
             interface: interface(&settings, &tracker),
             intakes,
+            masters: vec![Master::default(); settings.cameras.len()],
             frozen: vec![Frozen::default(); settings.cameras.len()],
             gather: several.map(|cameras| Gather::new(cameras, settings.together)),
             tracker,
@@ -100,37 +104,68 @@ impl OverheadLocalizer {
     }
 
     fn message(&mut self, at: Times, camera: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
+        match self.take(at, camera, source, cdr, sink) {
+            Ok(()) => {
+                if let Some(master) = self.masters.get_mut(camera) {
+                    master.pin(source, at.steady);
+                }
+            }
+            Err(Dropped::Broken(reason)) => self.report.reject(reason, sink),
+            Err(Dropped::Refused(refusal)) => {
+                let topic = self.interface.subscriptions.get(camera).map_or("?", |reader| reader.topic.as_str());
+                let what = format!("a message on {topic} was dropped: {refusal}");
+                self.report.refuse(at.steady, camera, what, sink);
+            }
+        }
+    }
+
+    /// Takes a message of the publisher that counts. Whoever sends what is no frame, or none of this time, does not become it.
+    fn take(
+        &mut self,
+        at: Times,
+        camera: usize,
+        source: Source,
+        cdr: &[u8],
+        sink: &mut dyn Sink,
+    ) -> Result<(), Dropped> {
+        let Some(master) = self.masters.get_mut(camera) else { return Ok(()) };
+        master.check(source, at.steady, Master::SILENCE).map_err(Refusal::from)?;
         if self.settings.input == Input::Pads {
             return self.pads(at, source, cdr, sink);
         }
         let Self { intakes, stream, gather, sightings, .. } = self;
-        let Some(intake) = intakes.get_mut(camera) else { return };
-        let taken = match gather {
-            None => intake.take(cdr, |stamp| stream.take(at.steady, source, stamp), sightings),
-            Some(gather) => intake.take(cdr, |stamp| gather.wants(camera, stamp).then_some(0.0), sightings),
+        let Some(intake) = intakes.get_mut(camera) else { return Ok(()) };
+        let is_new = |stamp: RosTime| {
+            timely(at, stamp)?;
+            Ok(match gather {
+                None => stream.take(at.steady, source, stamp),
+                Some(gather) => gather.wants(camera, stamp).then_some(0.0),
+            })
         };
-        let shown = matches!(taken, Ok(Some(_)));
-        if shown && self.frozen.get_mut(camera).is_some_and(|frozen| frozen.look(sightings, self.settings.frozen)) {
+        let taken = intake.take(cdr, is_new, sightings)?;
+        let is_shown = taken.is_some();
+        if is_shown && self.frozen.get_mut(camera).is_some_and(|frozen| frozen.look(sightings, self.settings.frozen)) {
             self.report.reject("the camera is frozen: its pictures are equal to the last bit".to_owned(), sink);
-            return;
+            return Ok(());
         }
         match (taken, gather) {
-            (Ok(Some((stamp, interval))), None) => {
+            (Some((stamp, interval)), None) => {
                 if self.settings.pattern != Pattern::Discs {
-                    return self.coded(at, stamp, interval, source.sequence, sink);
+                    self.coded(at, stamp, interval, source.sequence, sink);
+                    return Ok(());
                 }
                 let discs: Vec<MapDisc> = sightings.iter().map(|sighting| sighting.disc).collect();
                 self.step(at, stamp, interval, source.sequence, &discs, sink);
             }
-            (Ok(Some((stamp, _))), Some(gather)) => {
+            (Some((stamp, _)), Some(gather)) => {
                 for look in gather.take(at.steady, camera, stamp, sightings) {
                     self.look(at, &look, sink);
                 }
             }
-            (Ok(None), None) => {}
-            (Ok(None), Some(_)) => stream.stale += 1,
-            (Err(reason), _) => self.report.reject(reason, sink),
+            (None, None) => {}
+            (None, Some(_)) => stream.stale += 1,
         }
+        Ok(())
     }
 
     /// Coded pads that were found in a frame of the only camera.
@@ -156,16 +191,14 @@ impl OverheadLocalizer {
     }
 
     /// Pads of another vision system.
-    fn pads(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) {
-        match pads::read(cdr, &self.settings.pad_ids) {
-            Ok((stamp, pads)) => {
-                if let Some(interval) = self.stream.take(at.steady, source, RosTime::from(&stamp)) {
-                    self.tracker.step_pads(interval, &pads);
-                    self.told(at, stamp, source.sequence, pads.len(), sink);
-                }
-            }
-            Err(reason) => self.report.reject(reason, sink),
+    fn pads(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), Dropped> {
+        let (stamp, pads) = pads::read(cdr, &self.settings.pad_ids)?;
+        timely(at, RosTime::from(&stamp))?;
+        if let Some(interval) = self.stream.take(at.steady, source, RosTime::from(&stamp)) {
+            self.tracker.step_pads(interval, &pads);
+            self.told(at, stamp, source.sequence, pads.len(), sink);
         }
+        Ok(())
     }
 
     fn step(&mut self, at: Times, stamp: Time, interval: f64, number: u64, discs: &[MapDisc], sink: &mut dyn Sink) {

@@ -21,6 +21,8 @@ pub(crate) struct Gather {
     open: Option<Exposure>,
     /// The last exposure that was closed.
     last: Option<RosTime>,
+    /// What each camera stamped last.
+    stamps: Vec<Option<RosTime>>,
     /// Exposures so far.
     count: u64,
     /// Frames that did not come in time.
@@ -46,21 +48,24 @@ pub(crate) struct Look {
 
 impl Gather {
     pub(crate) fn new(cameras: usize, together: f64) -> Self {
-        Self { cameras, together, open: None, last: None, count: 0, missing: 0 }
+        Self { cameras, together, open: None, last: None, stamps: vec![None; cameras], count: 0, missing: 0 }
     }
 
-    /// Whether a frame of this camera with this stamp is wanted.
-    pub(crate) fn wants(&self, camera: usize, stamp: RosTime) -> bool {
+    /// Whether a frame of this camera with this stamp is wanted. A clock was set back if this camera's own was: one whose clock is
+    /// behind the others' is late, with every frame.
+    pub(crate) fn wants(&mut self, camera: usize, stamp: RosTime) -> bool {
+        let before = self.stamps.get_mut(camera).and_then(|last| last.replace(stamp));
+        let was_set = before.is_some_and(|before| stamp.seconds_since(before) < -SET_BACK);
         if let Some(open) = &self.open {
             let later = stamp.seconds_since(RosTime::from(&open.stamp));
             if later.abs() <= self.together {
                 return open.sightings.get(camera).is_some_and(Option::is_none);
             }
-            return !(-SET_BACK..=0.0).contains(&later);
+            return later > 0.0 || (was_set && later < -SET_BACK);
         }
         self.last.is_none_or(|last| {
             let later = stamp.seconds_since(last);
-            later > self.together || later < -SET_BACK
+            later > self.together || (was_set && later < -SET_BACK)
         })
     }
 
@@ -176,6 +181,28 @@ mod tests {
         gather.take(at(40), 0, stamp(1040), &[]);
         let looks = gather.take(at(45), 0, stamp(1080), &[]);
         assert_eq!((looks.len(), looks[0].number, gather.missing), (1, 2, 2));
+    }
+
+    /// Two cameras, one 1.5 s behind the other: the one ahead goes on, and when both clocks are set back, both are followed.
+    #[test]
+    fn a_clock_that_is_behind_is_none_that_was_set_back() {
+        let mut gather = Gather::new(2, 0.002);
+        let mut wanted = |camera: usize, now: u64, milliseconds: i64| {
+            let is_wanted = gather.wants(camera, RosTime::from(&stamp(milliseconds)));
+            if is_wanted {
+                gather.take(at(now), camera, stamp(milliseconds), &[]);
+            }
+            is_wanted
+        };
+        for frame in 0..50 {
+            let now = 40 * frame as u64;
+            assert!(wanted(0, now, 100_000 + 40 * frame), "frame {frame}");
+            assert!(!wanted(1, now + 5, 98_500 + 40 * frame), "frame {frame}");
+        }
+        for frame in 0..50 {
+            let now = 2000 + 40 * frame as u64;
+            assert!(wanted(0, now, 50_000 + 40 * frame) && wanted(1, now + 5, 50_000 + 40 * frame), "frame {frame}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! From an incoming message to discs on the map.
 
+use crate::refusal::{Dropped, Refusal};
 use crate::settings::{Input, Pattern, Settings};
 use crate::track::MapDisc;
 use crate::vision::coded::{CodeReader, CodedPad, MIDDLE};
@@ -71,13 +72,13 @@ impl Intake {
     /// Puts the discs of a message into `discs`, unless `is_new` refuses its stamp; gives the stamp and what `is_new` said.
     ///
     /// # Errors
-    /// With the reason, when the message is not what it should be.
+    /// With the reason, when the message is not what it should be, or `is_new` says that it does not count.
     pub(crate) fn take(
         &mut self,
         cdr: &[u8],
-        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        is_new: impl FnOnce(RosTime) -> Result<Option<f64>, Refusal>,
         discs: &mut Vec<Sighting>,
-    ) -> Result<Option<(Time, f64)>, String> {
+    ) -> Result<Option<(Time, f64)>, Dropped> {
         match self.input {
             Input::Image => {
                 let image = ImageView::decode(cdr).map_err(|error| error.to_string())?;
@@ -99,7 +100,7 @@ impl Intake {
                 self.frame(&frame, is_new, discs)
             }
             Input::Detections => self.detections(cdr, is_new, discs),
-            Input::Pads => Err("pads are no discs".to_owned()),
+            Input::Pads => Err("pads are no discs".to_owned().into()),
         }
     }
 
@@ -116,13 +117,13 @@ impl Intake {
     fn frame(
         &mut self,
         image: &ImageView<'_>,
-        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        is_new: impl FnOnce(RosTime) -> Result<Option<f64>, Refusal>,
         discs: &mut Vec<Sighting>,
-    ) -> Result<Option<(Time, f64)>, String> {
+    ) -> Result<Option<(Time, f64)>, Dropped> {
         let (size, stamp) = ([image.width as usize, image.height as usize], image.header.stamp);
         let frame = Frame::new(self.size(), image.encoding, size, image.step as usize, image.data, &mut self.room)
             .map_err(|error| error.to_string())?;
-        let Some(interval) = is_new(RosTime::from(&stamp)) else { return Ok(None) };
+        let Some(interval) = is_new(RosTime::from(&stamp))? else { return Ok(None) };
         self.detector.detect(frame, &mut self.found);
         if let Some((colour, reader)) = &self.codes {
             self.found.retain(|disc| disc.colour == *colour);
@@ -147,25 +148,25 @@ impl Intake {
     fn detections(
         &self,
         cdr: &[u8],
-        is_new: impl FnOnce(RosTime) -> Option<f64>,
+        is_new: impl FnOnce(RosTime) -> Result<Option<f64>, Refusal>,
         discs: &mut Vec<Sighting>,
-    ) -> Result<Option<(Time, f64)>, String> {
+    ) -> Result<Option<(Time, f64)>, Dropped> {
         let message = DiscArray::decode(cdr).map_err(|error| error.to_string())?;
         if message.discs.len() > MOST_DISCS {
-            return Err(format!("more than {MOST_DISCS} discs"));
+            return Err(format!("more than {MOST_DISCS} discs").into());
         }
         discs.clear();
         for DiscMessage { colour, u, v, .. } in message.discs {
             let colour = match colour {
                 DiscMessage::COLOUR_YELLOW => Colour::Yellow,
                 DiscMessage::COLOUR_BLUE => Colour::Blue,
-                other => return Err(format!("a disc has the colour {other}, it must be 0 or 1")),
+                other => return Err(format!("a disc has the colour {other}, it must be 0 or 1").into()),
             };
             if !(u.is_finite() && v.is_finite()) {
-                return Err("a disc's place is not finite".to_owned());
+                return Err("a disc's place is not finite".to_owned().into());
             }
             discs.extend(self.sighting(colour, Pixel { u, v }));
         }
-        Ok(is_new(RosTime::from(&message.header.stamp)).map(|interval| (message.header.stamp, interval)))
+        Ok(is_new(RosTime::from(&message.header.stamp))?.map(|interval| (message.header.stamp, interval)))
     }
 }

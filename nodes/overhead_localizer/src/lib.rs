@@ -20,6 +20,7 @@ mod naming;
 mod noise;
 mod pads;
 mod recalibrate;
+mod refusal;
 mod report;
 mod settings;
 mod stream;

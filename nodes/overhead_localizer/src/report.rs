@@ -4,7 +4,7 @@ use crate::missing::{self, Missing};
 use crate::stream::Stream;
 use crate::track::{Status, Track};
 use std::collections::BTreeMap;
-use trench_core::{Condition, Health, Level, Sink, Steady, Times};
+use trench_core::{Condition, Health, Level, Refusals, Sink, Steady, Times};
 
 /// Without frames for so long, s, something is wrong with the camera.
 const SILENCE: f64 = 0.5;
@@ -23,6 +23,8 @@ pub(crate) struct Report {
     missing: Missing,
     /// Frames that were not understood, by reason.
     rejected: BTreeMap<String, u64>,
+    /// Frames that do not count, once there are any.
+    refusals: Option<Refusals>,
     last_frame: Option<Steady>,
     /// Its beginning, and what the stream had counted by then.
     window: Option<(Steady, Stream)>,
@@ -43,6 +45,7 @@ impl Report {
             pads: 0,
             missing: Missing::default(),
             rejected: BTreeMap::new(),
+            refusals: None,
             last_frame: None,
             window: None,
             rate: 0.0,
@@ -61,6 +64,12 @@ impl Report {
         }
         self.is_urgent |= self.rejected.values().sum::<u64>() == self.rejected_at_window;
         *self.rejected.entry(reason).or_default() += 1;
+    }
+
+    /// Counts a frame of this port that is another publisher's or of another time, for a reason given as a whole sentence.
+    pub(crate) fn refuse(&mut self, now: Steady, port: usize, what: String, sink: &mut dyn Sink) {
+        self.refusals.get_or_insert_default().tell(now, port, what, &mut self.health, sink);
+        self.is_urgent = true;
     }
 
     /// Whether something has begun that nobody should hear of only when it is time.
@@ -106,6 +115,9 @@ impl Report {
     pub(crate) fn publish(&mut self, at: Times, tracks: &[Track], stream: &Stream, sink: &mut dyn Sink) {
         self.is_urgent = false;
         self.measure_rate(at, stream);
+        if let Some(refusals) = &mut self.refusals {
+            refusals.settle(at.steady, &mut self.health);
+        }
         let rejected: u64 = self.rejected.values().sum();
         let silent = self.last_frame.is_none_or(|last| at.steady.seconds_since(last) > SILENCE);
         let (condition, message) = match self.rejected.iter().max_by_key(|(_, count)| **count) {

@@ -6,6 +6,7 @@ mod calibration;
 mod encodings;
 mod noise;
 mod restart;
+mod strangers;
 mod viewers;
 
 use overhead_localizer::description;
