@@ -2,6 +2,7 @@
 
 mod alarm;
 mod journals;
+mod reporter;
 
 use clap::Parser;
 use serde_json::{Value, json};
@@ -49,6 +50,9 @@ pub(crate) struct Arguments {
     /// the run folder. `images`: camera images too (40 MB/s), so that the localizer can be checked.
     #[arg(long, value_enum, value_name = "WHAT", num_args = 0..=1, require_equals = true, default_missing_value = "messages")]
     journal: Option<journals::Kept>,
+    /// Tell nobody on /diagnostics what happens to the processes: no node of the launcher's own joins their network.
+    #[arg(long)]
+    no_diagnostics: bool,
 }
 
 pub(crate) fn name_and_value(text: &str) -> Result<(String, String), String> {
@@ -99,8 +103,9 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     for warning in &plan.warnings {
         eprintln!("trench launch: warning: {warning}");
     }
-    // Before journals are asked for: it is no node of the run.
+    // Before journals are asked for: they are no nodes of the run.
     let alarm = alarm::of(&plan)?;
+    let reporter = if arguments.no_diagnostics { None } else { reporter::of(&plan, &arguments.file)? };
     if let Some(kept) = arguments.journal {
         journals::keep(&mut plan, kept, &run_folder)?;
     }
@@ -112,7 +117,7 @@ fn launch(arguments: &Arguments) -> Result<u8, LaunchError> {
     eprintln!("trench launch: run folder {}", run_folder.display());
     // What they mean no restart can mend.
     let refusals = vec![Exit::Usage as u8, Exit::Configuration as u8];
-    let options = Options { refusals, alarm, ..Options::new(&run_folder.join("log")) };
+    let options = Options { refusals, alarm, reporter, ..Options::new(&run_folder.join("log")) };
     Ok(trench_launch::supervise(&plan, &options)?.exit_code())
 }
 

@@ -6,6 +6,7 @@ mod check;
 mod launch;
 mod named;
 mod plot;
+mod report;
 mod rounded;
 mod router;
 mod sim;
@@ -28,6 +29,7 @@ pub(crate) enum Command {
     Check(check::Arguments),
     Launch(launch::Arguments),
     Plot(plot::Arguments),
+    Report(report::Arguments),
     Router(router::Arguments),
     Sim(sim::Arguments),
     Ssl(ssl::Arguments),
@@ -44,6 +46,7 @@ impl Command {
             Self::Check(arguments) => check::run(&arguments),
             Self::Launch(arguments) => launch::run(&arguments),
             Self::Plot(arguments) => plot::run(&arguments),
+            Self::Report(arguments) => report::run(&arguments),
             Self::Router(arguments) => router::run(&arguments),
             Self::Sim(arguments) => sim::run(&arguments),
             Self::Ssl(arguments) => ssl::run(&arguments),

@@ -39,8 +39,10 @@ GAP = 1.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
-# Who names a fault elsewhere than on /diagnostics (act.py looks there): the launcher, and a process that refuses to start.
+# Who names a fault elsewhere than on /diagnostics (act.py looks there): the launcher, which says it there too, and a process that refuses to start.
 REPORTERS = ("launcher", "itself")
+# What the launcher says on /diagnostics of a process that dies or is stopped, as long as it does not run.
+ENDS = r"(?:has died (?!.*was started again)|was stopped by a signal and does nothing)"
 # With which a second process of a node ends.
 TAKEN = 5
 
@@ -164,6 +166,11 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
         times = [float(at) - harm for at, text in lines if float(at) >= began - BEFORE and re.search(pattern, text)]
     elif pattern in REPORTERS:
         times = [fault["reported"]] if "reported" in fault else []
+        if pattern == "launcher" and times:
+            # Who looks at /diagnostics sees no log.
+            told = re.compile(rf"/(?:launch_\w+/)?{fault.get('kill') or fault.get('pause')}(?:-\d+)?: process: {ENDS}")
+            said = [at - harm for at, text, level in bag.diagnostics if level != OK and told.match(text)]
+            times = [max(*times, at) for at in said if at >= -BEFORE]
     elif pattern is not None:
         said = [at for at, text, level in bag.diagnostics if level != OK and re.search(pattern, text)]
         times = [at - harm for at in said if at >= began - BEFORE]

@@ -115,6 +115,24 @@ class Judged(unittest.TestCase):
         self.bag.truth["robot1"].values = [(0.74, 0.40, *state[2:]) for state in self.bag.truth["robot1"].values]
         self.assertIn("no robot went round an obstacle: 0.09 m of room", self.problems({"rounds": True}, run))
 
+    def test_the_launcher_must_say_it_in_its_log_and_on_diagnostics(self):
+        fault = {"says": "launcher", "kill": "robot1/formation_controller", "reported": 0.1}
+        name = "/robot1/formation_controller: process: has died (signal: 9 (SIGKILL))"
+
+        def said(at: float, text: str, more: dict | None = None) -> bool:
+            self.bag.diagnostics = [(at, text, b"\1")]
+            return "named it within" not in self.problems(fault | (more or {}))
+
+        self.assertTrue(said(BEGAN + 0.2, f"{name} and is to be started again"))
+        self.assertTrue(said(BEGAN + 0.2, f"{name}, not started again"))
+        self.assertFalse(said(BEGAN + 0.6, f"{name} and is to be started again"))
+        self.assertFalse(said(BEGAN + 0.2, f"{name} and is to be started again", {"reported": 0.6}))
+        self.assertFalse(said(BEGAN + 0.2, f"{name} and was started again"))
+        self.assertFalse(said(BEGAN + 0.2, f"{name.replace('robot1', 'robot2')} and is to be started again"))
+        stopped = "/rf_bridge: process: was stopped by a signal and"
+        self.assertTrue(said(BEGAN + 0.2, f"{stopped} does nothing until SIGCONT", {"kill": None, "pause": "rf_bridge"}))
+        self.assertFalse(said(BEGAN + 0.2, f"{stopped} goes on", {"kill": None, "pause": "rf_bridge"}))
+
     def test_nobody_but_the_victim_may_end(self):
         self.assertIn("rf_bridge-3 on base ended too: died signal: 9 (SIGKILL)", self.problems(logs={"base": LOG + OPERATOR}))
         self.assertEqual(self.problems({"pid": 12}, logs={"base": LOG + OPERATOR}), "")

@@ -171,6 +171,8 @@ pub enum ByteStream {
     },
     /// The keys pressed in the terminal that the process was started from, each at once and without its echo.
     Keyboard,
+    /// What somebody writes to the process's standard input, a pipe; it breaks when they have gone.
+    StandardInput,
 }
 
 /// All that a core is connected to. Indices into these lists are what [`crate::Event`] and [`crate::Sink`] name.

@@ -111,6 +111,7 @@ fn device(stream: &ByteStream) -> String {
         ByteStream::Serial { path, .. } => path.clone(),
         ByteStream::PseudoTerminal { link } => link.clone(),
         ByteStream::Keyboard => "keyboard".to_owned(),
+        ByteStream::StandardInput => "standard input".to_owned(),
     }
 }
 

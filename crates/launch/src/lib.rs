@@ -9,11 +9,13 @@ mod literal;
 mod package;
 mod parse;
 mod plan;
+mod report;
 mod resolve;
 mod scope;
 mod substitution;
 mod supervise;
 
 pub use plan::{Argument, Output, ParameterFile, Plan, Process, Respawn};
+pub use report::{Report, Severity};
 pub use resolve::{Request, arguments, resolve};
-pub use supervise::{Alarm, Options, Outcome, SuperviseError, supervise};
+pub use supervise::{Alarm, Options, Outcome, Reporter, SuperviseError, supervise};

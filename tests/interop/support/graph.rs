@@ -10,8 +10,11 @@ const CONTROLLERS: &str = "CONTROLLERS";
 const ALL: &str = "ALL";
 
 /// Nodes besides the controllers.
-const NODES: [&str; 6] =
-    ["/leader_assignment", "/obstacle_mapper", "/operator", "/overhead_localizer", "/rf_bridge", "/testbed"];
+const NODES: [&str; 7] =
+    [LAUNCHER, "/leader_assignment", "/obstacle_mapper", "/operator", "/overhead_localizer", "/rf_bridge", "/testbed"];
+
+/// The node of `trench launch` itself: here without its host and process id.
+const LAUNCHER: &str = "/launch";
 
 /// Topic (`*` is each robot), type, publishers, subscribers.
 const TOPICS: [(&str, &str, &str, &str); 32] = [
@@ -52,7 +55,7 @@ const TOPICS: [(&str, &str, &str, &str); 32] = [
     (
         "/diagnostics",
         "diagnostic_msgs/msg/DiagnosticArray",
-        "/leader_assignment /obstacle_mapper /overhead_localizer /rf_bridge /testbed CONTROLLERS",
+        "/launch /leader_assignment /obstacle_mapper /overhead_localizer /rf_bridge /testbed CONTROLLERS",
         "",
     ),
     ("/rosout", "rcl_interfaces/msg/Log", "ALL", ""),
@@ -67,8 +70,8 @@ type Topic = (String, BTreeSet<String>, BTreeSet<String>);
 
 /// Asserts that nodes, topics, types and ends are those of the table, and no others.
 pub(crate) fn check(graph: &Value) {
-    let nodes: BTreeSet<&str> = graph["nodes"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-    assert_eq!(nodes, all().iter().map(String::as_str).collect());
+    let nodes = graph["nodes"].as_array().unwrap().iter().filter_map(Value::as_str);
+    assert_eq!(nodes.map(plain).collect::<BTreeSet<_>>(), all());
     let (expected, seen) = (expected(), seen(graph));
     for (name, topic) in &expected {
         assert_eq!(seen.get(name), Some(topic), "{name}");
@@ -82,6 +85,15 @@ pub(crate) fn check(graph: &Value) {
     }
 }
 
+/// Whether it is the node of a `trench launch`.
+pub(crate) fn is_launcher(node: &str) -> bool {
+    node.starts_with("/launch_")
+}
+
+fn plain(node: &str) -> String {
+    if is_launcher(node) { LAUNCHER.to_owned() } else { node.to_owned() }
+}
+
 fn seen(graph: &Value) -> BTreeMap<String, Topic> {
     let topics = graph["topics"].as_object().unwrap().iter();
     let topics = topics.map(|(name, topic)| {
@@ -93,7 +105,7 @@ fn seen(graph: &Value) -> BTreeMap<String, Topic> {
             let ours = ends.filter(|end| !end["node"].as_str().unwrap().starts_with("/peer_"));
             ours.map(|end| {
                 assert_eq!(end["type"], kind, "{name}");
-                end["node"].as_str().unwrap().to_owned()
+                plain(end["node"].as_str().unwrap())
             })
             .collect()
         };

@@ -6,7 +6,7 @@ use crate::plan::{Output, Process};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, getpid, getppid, kill_process_group};
 use std::io;
 use std::os::unix::process::CommandExt;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::Sender;
 
 /// A started process, the leader of its own group.
@@ -27,10 +27,38 @@ impl Running {
         alive: &Sender<()>,
     ) -> io::Result<Self> {
         let mut command = command(process);
+        command.stdin(Stdio::null());
+        Self::spawn(command, process, member, console, Screen::Error, events, alive)
+    }
+
+    /// As [`Self::start`], with a pipe to its standard input; what it says goes to log files alone.
+    pub(super) fn start_fed(
+        process: &Process,
+        member: usize,
+        console: &Console,
+        events: &Sender<Event>,
+        alive: &Sender<()>,
+    ) -> io::Result<(Self, ChildStdin)> {
+        let mut command = command(process);
+        command.stdin(Stdio::piped());
+        let mut running = Self::spawn(command, process, member, console, Screen::None, events, alive)?;
+        let pipe = running.child.stdin.take().ok_or(io::ErrorKind::BrokenPipe)?;
+        Ok((running, pipe))
+    }
+
+    fn spawn(
+        mut command: Command,
+        process: &Process,
+        member: usize,
+        console: &Console,
+        errors: Screen,
+        events: &Sender<Event>,
+        alive: &Sender<()>,
+    ) -> io::Result<Self> {
         die_with_parent(&mut command);
         let mut child = command.spawn()?;
         let last_words = LastWords::default();
-        let watched = forward_output(process, &mut child, &last_words, console, alive).and_then(|()| {
+        let watched = forward_output(process, &mut child, &last_words, console, errors, alive).and_then(|()| {
             let (pid, label, events) = (Pid::from_child(&child), &process.label, events.clone());
             std::thread::Builder::new().name(format!("wait {label}")).spawn(move || tell_changes(pid, member, &events))
         });
@@ -70,6 +98,7 @@ fn forward_output(
     child: &mut Child,
     last_words: &LastWords,
     console: &Console,
+    errors: Screen,
     alive: &Sender<()>,
 ) -> io::Result<()> {
     let log = console.log_of(&process.label);
@@ -78,7 +107,7 @@ fn forward_output(
         console.forward(stream, &process.label, screen, log.clone(), None, alive.clone())?;
     }
     if let Some(stream) = child.stderr.take() {
-        console.forward(stream, &process.label, Screen::Error, log, Some(last_words.clone()), alive.clone())?;
+        console.forward(stream, &process.label, errors, log, Some(last_words.clone()), alive.clone())?;
     }
     Ok(())
 }
@@ -106,7 +135,7 @@ fn tell_changes(pid: Pid, member: usize, events: &Sender<Event>) {
 fn command(process: &Process) -> Command {
     let mut command = Command::new(&process.argv[0]);
     command.args(&process.argv[1..]).process_group(0);
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
     for (name, value) in &process.environment {
         match value {
             Some(value) => command.env(name, value),

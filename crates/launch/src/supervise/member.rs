@@ -5,6 +5,7 @@ use super::ends::Ends;
 use super::output::{Console, LastWords};
 use super::{Event, Options};
 use crate::plan::Process;
+use crate::report::{Report, Severity};
 use rustix::process::Signal;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
@@ -26,6 +27,12 @@ pub(super) struct Member<'a> {
     refusal: Option<LastWords>,
     /// Whether it is what calls for help.
     is_alarm: bool,
+    /// How often it was started.
+    starts: u32,
+    /// How its last life ended, if it is to be started again.
+    last_end: Option<String>,
+    /// What is to be told of it.
+    news: Option<Report>,
 }
 
 enum State {
@@ -57,7 +64,19 @@ pub(super) enum Step {
 impl<'a> Member<'a> {
     pub(super) fn new(index: usize, process: &'a Process, at: Instant) -> Self {
         let state = State::Waiting { at };
-        Self { index, process, state, retries: 0, ends: Ends::default(), failed: false, refusal: None, is_alarm: false }
+        Self {
+            index,
+            process,
+            state,
+            retries: 0,
+            ends: Ends::default(),
+            failed: false,
+            refusal: None,
+            is_alarm: false,
+            starts: 0,
+            last_end: None,
+            news: None,
+        }
     }
 
     /// What calls for help, which nobody needs yet.
@@ -116,11 +135,20 @@ impl<'a> Member<'a> {
                 Ok(running) => {
                     console.say("INFO", self.label(), &format!("process started with pid [{}]", running.pid()));
                     self.state = State::Running { running, since: now, ending: None };
+                    self.starts += 1;
+                    match self.last_end.take() {
+                        _ if self.is_alarm => {
+                            self.note(Severity::Error, "says stop: what all robots need was given up")
+                        }
+                        Some(end) => self.note_passing(&format!("{end} and was started again")),
+                        None => self.note(Severity::Fine, "runs"),
+                    }
                 }
                 Err(error) => {
                     console.say("ERROR", self.label(), &format!("cannot be started: {error}"));
                     self.failed = true;
                     self.state = State::Ended;
+                    self.note(Severity::Error, &format!("cannot be started: {error}"));
                 }
             },
             State::Running { running, ending: Some(ending), .. } => {
@@ -156,13 +184,37 @@ impl<'a> Member<'a> {
         }
     }
 
+    /// What is to be told of it, once.
+    pub(super) fn take_news(&mut self) -> Option<Report> {
+        self.news.take()
+    }
+
+    /// What has become of it, until something else does.
+    fn note(&mut self, severity: Severity, text: &str) {
+        let pid = match &self.state {
+            State::Running { running, .. } => Some(running.pid().as_raw_pid().unsigned_abs()),
+            State::Waiting { .. } | State::Ended => None,
+        };
+        let [name, label] = [self.label(), self.label()].map(str::to_owned);
+        let news = Report { name, label, severity, lasts: true, starts: self.starts, pid, text: text.to_owned() };
+        self.news = Some(news);
+    }
+
+    /// What happened to it, though it runs.
+    fn note_passing(&mut self, text: &str) {
+        self.note(Severity::Warning, text);
+        self.news.iter_mut().for_each(|news| news.lasts = false);
+    }
+
     /// Names a process that somebody has stopped: it lives and does nothing.
-    pub(super) fn tell_halt(&self, halted: bool, console: &Console) {
-        match halted {
-            true => {
-                console.say("ERROR", self.label(), "process was stopped by a signal and does nothing until SIGCONT")
-            }
-            false => console.say("INFO", self.label(), "process goes on"),
+    pub(super) fn tell_halt(&mut self, halted: bool, console: &Console) {
+        if halted {
+            let text = "was stopped by a signal and does nothing until SIGCONT";
+            console.say("ERROR", self.label(), &format!("process {text}"));
+            self.note(Severity::Error, text);
+        } else {
+            console.say("INFO", self.label(), "process goes on");
+            self.note_passing("was stopped by a signal and goes on");
         }
     }
 
@@ -177,6 +229,7 @@ impl<'a> Member<'a> {
             Err(error) => {
                 console.say("ERROR", self.label(), &format!("its exit code is lost: {error}"));
                 self.failed = true;
+                self.note(Severity::Error, &format!("has ended, its exit code is lost: {error}"));
                 return Step::Continue;
             }
         };
@@ -187,6 +240,8 @@ impl<'a> Member<'a> {
             true => console.say("ERROR", self.label(), &format!("process has died [pid {pid}, {status}]")),
             false => console.say("INFO", self.label(), &format!("process has finished cleanly [pid {pid}]")),
         }
+        let end = if self.failed { format!("has died ({status})") } else { "has finished".to_owned() };
+        let severity = if self.failed { Severity::Error } else { Severity::Fine };
         let code = exit_code(status);
         let refused = self.process.is_node && options.refusals.contains(&code);
         self.refusal = refused.then_some(last_words);
@@ -194,27 +249,40 @@ impl<'a> Member<'a> {
             return Step::Continue;
         }
         if refused {
+            self.note(severity, &format!("{end}: it refuses what it was started with, which ends the run"));
             return Step::Refused { code };
         }
         if self.process.ends_run {
+            self.note(severity, &format!("{end}, which ends the run"));
             return Step::EndRun { code };
         }
-        self.start_again(since.elapsed(), console, options);
+        self.start_again(since.elapsed(), &end, console, options);
         Step::Continue
     }
 
-    fn start_again(&mut self, life: Duration, console: &Console, options: &Options) {
-        let Some(respawn) = self.process.respawn else { return };
+    fn start_again(&mut self, life: Duration, end: &str, console: &Console, options: &Options) {
+        let Some(respawn) = self.process.respawn else {
+            let (severity, rest) =
+                if self.failed { (Severity::Error, ", not started again") } else { (Severity::Fine, "") };
+            return self.note(severity, &format!("{end}{rest}"));
+        };
         let crashes = self.ends.add(Instant::now(), life, options);
-        if respawn.max_retries.is_some_and(|most| self.retries >= most) {
-            console.say("ERROR", self.label(), &format!("was started again {} times: no more", self.retries));
+        let given_up = if respawn.max_retries.is_some_and(|most| self.retries >= most) {
+            Some(format!("was started again {} times: no more", self.retries))
         } else if let Some(crashes) = crashes {
-            console.say("ERROR", self.label(), &format!("{crashes}: not starting it again"));
             self.failed = true;
+            Some(format!("{crashes}: not starting it again"))
         } else {
-            self.retries += 1;
-            self.state = State::Waiting { at: Instant::now() + respawn.delay };
+            None
+        };
+        if let Some(reason) = given_up {
+            console.say("ERROR", self.label(), &reason);
+            return self.note(Severity::Error, &format!("given up: {end}; {reason}"));
         }
+        self.retries += 1;
+        self.state = State::Waiting { at: Instant::now() + respawn.delay };
+        self.note(Severity::Warning, &format!("{end} and is to be started again"));
+        self.last_end = Some(end.to_owned());
     }
 }
 

@@ -8,13 +8,16 @@ mod ends;
 mod member;
 mod outcome;
 mod output;
+mod reporter;
 
 pub use outcome::Outcome;
+pub use reporter::Reporter;
 
 use crate::package::which;
 use crate::plan::{Plan, Process};
 use member::{Member, Step};
 use output::{Console, LastWords};
+use reporter::{REPORTER, Reports};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -43,6 +46,8 @@ pub struct Options {
     pub refusals: Vec<u8>,
     /// What is started when a process that matters dies and is not started again.
     pub alarm: Option<Alarm>,
+    /// Who tells others what happens to the processes.
+    pub reporter: Option<Reporter>,
 }
 
 /// What calls for help.
@@ -55,8 +60,8 @@ pub struct Alarm {
 }
 
 impl Options {
-    /// The usual limits: five lives in a row of less than a second, or ten ends within a minute. No exit code is a refusal, and
-    /// there is no alarm.
+    /// The usual limits: five lives in a row of less than a second, or ten ends within a minute. No exit code is a refusal,
+    /// there is no alarm, and nobody is told.
     #[must_use]
     pub fn new(log_folder: &Path) -> Self {
         Self {
@@ -67,6 +72,7 @@ impl Options {
             ends_within: Duration::from_secs(60),
             refusals: Vec::new(),
             alarm: None,
+            reporter: None,
         }
     }
 }
@@ -122,6 +128,7 @@ pub fn supervise(plan: &Plan, options: &Options) -> Result<Outcome, SuperviseErr
         .collect();
     let mut run = Run {
         members,
+        reports: Reports::new(options, start),
         options,
         console: console.clone(),
         sender,
@@ -136,7 +143,8 @@ pub fn supervise(plan: &Plan, options: &Options) -> Result<Outcome, SuperviseErr
     let outcome = run.outcome();
     let refusals = run.refusals();
     let given_up = run.given_up.take();
-    drop(run);
+    run.reports.close(&events);
+    drop((run.sender, run.alive));
     // Readers hold the other ends: the channel closes when the last line of output is written.
     let _ = all_read.recv_timeout(LAST_WORDS);
     repeat(&refusals, &console);
@@ -208,6 +216,7 @@ fn watch_signals(sender: Sender<Event>) -> std::io::Result<()> {
 
 struct Run<'a> {
     members: Vec<Member<'a>>,
+    reports: Reports<'a>,
     options: &'a Options,
     console: Console,
     sender: Sender<Event>,
@@ -232,21 +241,33 @@ impl Run<'_> {
                 member.act(Instant::now(), &self.console, &self.sender, &self.alive);
             }
             self.call_for_help();
+            self.tell();
+            self.reports.act(Instant::now(), &self.console, &self.sender, &self.alive);
             if self.members.iter().all(Member::has_ended) {
                 return;
             }
             if !self.ending && self.members.iter().all(|member| member.has_ended() || member.is_alarm()) {
                 self.end_all();
             }
-            let next = self.members.iter().filter_map(Member::next_deadline).min();
+            let deadlines = self.members.iter().filter_map(Member::next_deadline);
+            let next = deadlines.chain(self.reports.next_deadline()).min();
             let wait = next.map_or(Duration::from_secs(3600), |at| at.saturating_duration_since(Instant::now()));
             match events.recv_timeout(wait) {
                 Ok(Event::Signal) => self.interrupt(),
+                Ok(Event::Ended { member: REPORTER }) => self.reports.reap(Instant::now(), &self.console),
+                Ok(Event::Halted { member: REPORTER, .. }) => {}
                 Ok(Event::Ended { member }) => self.reap(member),
                 Ok(Event::Halted { member, halted }) => self.members[member].tell_halt(halted, &self.console),
                 // The loop itself holds a sender, so the channel cannot be closed.
                 Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => {}
             }
+        }
+    }
+
+    /// Tells others what has become of processes.
+    fn tell(&mut self) {
+        for news in self.members.iter_mut().filter_map(Member::take_news) {
+            self.reports.tell(Instant::now(), news);
         }
     }
 
@@ -267,6 +288,9 @@ impl Run<'_> {
         for member in &mut self.members {
             member.end(now, &self.console);
         }
+        // Whose end is the run's is named first.
+        self.tell();
+        self.reports.end();
     }
 
     fn reap(&mut self, index: usize) {

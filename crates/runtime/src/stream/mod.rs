@@ -1,9 +1,10 @@
-//! Byte streams: serial lines and pseudo-terminals, read and written without ever blocking.
+//! Byte streams: serial lines, pseudo-terminals and standard input, read and written without ever blocking.
 
 mod keyboard;
 mod line;
 mod pseudo_terminal;
 mod serial;
+mod standard_input;
 
 use keyboard::Keyboard;
 use line::Line;
@@ -29,6 +30,7 @@ enum Kind {
     Serial(Serial),
     PseudoTerminal(PseudoTerminal),
     Keyboard(Keyboard),
+    StandardInput,
 }
 
 /// What a turn of the loop brought.
@@ -49,6 +51,7 @@ impl Stream {
             ByteStream::Serial { path, baud } => Kind::Serial(Serial::new(path, *baud)),
             ByteStream::PseudoTerminal { link } => Kind::PseudoTerminal(PseudoTerminal::new(link)),
             ByteStream::Keyboard => Kind::Keyboard(Keyboard::default()),
+            ByteStream::StandardInput => Kind::StandardInput,
         };
         Self { kind, line: None, token, retry: Some(Steady(0)), last_problem: None }
     }
@@ -67,6 +70,7 @@ impl Stream {
             Kind::Serial(serial) => serial.open(),
             Kind::PseudoTerminal(terminal) => terminal.open(),
             Kind::Keyboard(keyboard) => keyboard.open(),
+            Kind::StandardInput => standard_input::open(),
         };
         match opened.and_then(|descriptor| Line::new(descriptor, registry, self.token)) {
             Ok(line) => {
@@ -119,6 +123,7 @@ impl Stream {
             Kind::Serial(serial) => serial.path(),
             Kind::PseudoTerminal(terminal) => terminal.link(),
             Kind::Keyboard(_) => keyboard::TERMINAL,
+            Kind::StandardInput => standard_input::NAME,
         }
     }
 }
