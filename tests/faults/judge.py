@@ -11,7 +11,7 @@ import beside
 import wheels
 from bag import NEAR, Run, Series
 from hosts import BASE
-from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
+from motion import AGE, FRAME, allowed, burst, idle, moves, rest, resting_share, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -24,6 +24,8 @@ RECOVERY, FORMATION = 2.0, 10.0
 # s, in which a robot drives again that a restarted process drives, and from a robot's silence to an assignment without it: 2 s
 # (`age.robot`), looked at once a second.
 RESUMED, QUIT = 1.0, 3.0
+# s, after a fault's end in which `drives` holds on: a fault of an instant would be no test of it.
+AFTERWARDS = 1.0
 # s, within which a robot moves that is driven, and m/s, below which a goal point rests.
 LATELY, RESTS = 0.5, 0.005
 # rad/s and m/s, beyond which no command goes.
@@ -97,6 +99,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if began == 0.0:
         verdict.problems.append("it never began")
         return verdict
+    verdict.lasted = ended - began
     if fault.get("touches") and bag.nearest(fault["touches"], began, began + PUT) > TOUCH:
         verdict.problems.append(f"{fault['touches']} touched nobody")
     if fault.get("rounds") and (room := beside.room(bag, run, began, ended)) > beside.NEAR:
@@ -131,8 +134,12 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
             verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
     if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
         verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
-    if "drives" in fault and (stood := idle(bag, began, ended, fault.get("halts", []))) > fault["drives"]:
-        verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
+    if "drives" in fault:
+        spared = [*fault.get("halts", []), *fault.get("spares", [])]
+        if (stood := idle(bag, began, min(ended + AFTERWARDS, following), spared)) > fault["drives"]:
+            verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
+    if "rests" in fault and (least := resting_share(bag, began, ended)) < fault["rests"]:
+        verdict.problems.append(f"a robot stood for {least:.0%} of the time, not {fault['rests']:.0%}")
     if "kill" in fault:
         verdict.rested = rest(bag, began, min(began + FORMATION, following))
         if verdict.rested > ended - began + RESUMED:

@@ -12,11 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import history
 import judge
 import matrix
 import recovery
 from bag import Run, Series
 from motion import FRAME
+from verdict import IN_COMPANY
 from wheels import PIECE, SPEED_TIMES_TIMER
 
 # s, when the run begins, its fault begins and is over, and the run ends.
@@ -148,6 +150,24 @@ class Judged(unittest.TestCase):
         self.assertIn("a robot stood for 0.8", self.problems({"drives": 0.3}))
         self.assertEqual(self.problems({"drives": 1.0}), "")
         self.assertEqual(self.problems({"drives": 0.3, "halts": ["robot1"]}), "")
+        # Who is spared may drive, who halts must not.
+        self.moved(BEGAN, ENDED, SPEED)
+        self.assertNotIn("stood", self.problems({"drives": 0.3, "spares": ["robot1"]}))
+        self.assertIn("robot1 stood never", self.problems({"drives": 0.3, "halts": ["robot1"]}))
+
+    def test_robots_must_drive_after_a_fault_of_an_instant(self):
+        self.moved(BEGAN, ENDED, SPEED)
+        self.assertNotIn("a robot stood", self.problems({"drives": 0.3}))
+        self.moved(ENDED + 0.2, ENDED + 0.8, 0.0)
+        self.assertIn("a robot stood for 0.6", self.problems({"drives": 0.3}))
+
+    def test_robots_must_stand_for_most_of_the_time_where_control_is_mostly_not_safe(self):
+        self.assertEqual(self.problems({"rests": 0.8, "pulses": 0.3}), "")
+        self.moved(BEGAN + 0.3, BEGAN + 0.7, SPEED)
+        self.assertIn("a robot stood for 4", self.problems({"rests": 0.8}))
+        self.assertIn("a robot moved for 0.3", self.problems({"pulses": 0.3}))
+        self.bag.truth["robot1"] = Series()
+        self.assertEqual(judge.resting_share(self.bag, BEGAN, ENDED), 0.0)
 
     def test_no_robot_moves_on_what_is_old(self):
         self.told([(at + 0.001, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 5.0])
@@ -200,6 +220,54 @@ class Judged(unittest.TestCase):
         self.assertIn("robot4 followed 'robot1' before, 'robot1' meanwhile", self.problems({"retargets": "robot4"}))
 
 
+class Kept(unittest.TestCase):
+    """Results from run to run."""
+
+    RUNS = [{"name": "a-run", "faults": [{"name": "a-fault", "unnamed": "a test"}]}]
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results, self.file = Path(folder.name), Path(folder.name) / "faults.jsonl"
+
+    def run_of(self, date: str, *problems: str, seed: str = "1") -> None:
+        """What a run leaves in its folder, which the next one empties."""
+        kept = self.results / "a-run" / seed
+        history.put_by(self.RUNS[0], kept)
+        kept.mkdir(parents=True, exist_ok=True)
+        told = {"fault": "a-fault", "run": "a-run", "problems": problems}
+        document = {"date": date, "seed": 1, "commit": "c", "verdicts": [told]}
+        (kept / "verdicts.json").write_text(json.dumps(document), encoding="utf-8")
+
+    def attempts(self) -> list[bool]:
+        """What is known after the table was written."""
+        return history.attempts_of("a-fault", history.merged(self.RUNS, self.results, self.file))
+
+    def test_what_failed_and_passes_the_next_time_has_not_passed_always(self):
+        self.run_of("2026-11-28 07:45", "contact: robot1 touches robot2", "a second one")
+        self.assertEqual(self.attempts(), [False])
+        self.run_of("2026-11-28 08:45")
+        self.assertEqual(self.attempts(), [False, True])
+        # Nothing is counted twice, on another machine neither, which has the file alone.
+        self.assertEqual(self.attempts(), [False, True])
+        self.results = self.results / "elsewhere"
+        self.assertEqual(self.attempts(), [False, True])
+        self.run_of("2026-11-28 09:45", "contact")
+        self.run_of("2026-11-28 10:45")
+        self.assertEqual(self.attempts(), [False, True, False, True])
+        [document] = map(json.loads, self.file.read_text(encoding="utf-8").splitlines())
+        self.assertEqual([attempt["problems"]["a-fault"] for attempt in document["attempts"]], ["contact: robot1 touches robot2", "", "contact"])
+
+    def test_what_failed_beside_others_stays_an_attempt(self):
+        self.run_of("2026-11-28 07:45", "contact", seed=f"1{IN_COMPANY}")
+        self.run_of("2026-11-28 07:46")
+        self.assertEqual(sorted(self.attempts()), [False, True])
+        history.put_by(self.RUNS[0], self.results / "a-run" / f"1{IN_COMPANY}")
+        (self.results / "a-run" / f"1{IN_COMPANY}" / "verdicts.json").unlink()
+        self.run_of("2026-11-28 08:46")
+        self.assertEqual(sorted(self.attempts()), [False, True, True])
+
+
 class Pages(unittest.TestCase):
     """Pages of the documentation that are made of results."""
 
@@ -207,7 +275,8 @@ class Pages(unittest.TestCase):
         docs = matrix.ROOT / "docs"
         told = [json.loads(line) for line in (docs / "faults.jsonl").read_text(encoding="utf-8").splitlines()]
         rows = recovery.rows(told)
-        self.assertIn("| rf_bridge (kill-bridge) |", rows)
+        for victim in ("rf_bridge (kill-bridge)", "router (zenoh-kill-router, hosts-zenoh)", "view (kill-view)", "launcher (kill-launcher)"):
+            self.assertIn(f"| {victim} |", rows)
         page = (docs / "BENCHMARKS.md").read_text(encoding="utf-8")
         self.assertIn(recovery.BEGIN + recovery.HEAD + rows + recovery.END, page)
 
