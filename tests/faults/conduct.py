@@ -68,7 +68,7 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
     lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
     evidence = judge.Evidence(
         bag=folder / "bag", logs=logs, exit_code=code, memory=memory, alive_after=max(lived, default=None),
-        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
+        own_bag=folder / "own-bag", split_bag=folder / "split-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
         missing=missing, left=launched.left,
     )
     return judge.judge(run, windows, evidence)

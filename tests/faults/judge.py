@@ -3,9 +3,13 @@
 import bisect
 import math
 import re
+import shutil
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
 
 import beside
 import wheels
@@ -58,6 +62,8 @@ class Evidence:
     memory: list[dict[str, int]]
     alive_after: float | None
     own_bag: Path
+    # Of a second recorder, which begins a new file every so often.
+    split_bag: Path
     binaries: Path
     seen: Path
     tap: Path
@@ -80,6 +86,8 @@ def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
         window = bag.bed_window(kind, counts.get(kind, 0))
         counts[kind] = counts.get(kind, 0) + 1
         windows.append((fault, *(window or (0.0, 0.0))))
+    for fault, began, _ in windows:
+        fault["began"] = began
     # A fault is judged until the next one begins.
     begins = sorted(began for _, began, _ in windows) + [math.inf]
     verdicts = [
@@ -119,8 +127,10 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         return verdict
     if "double" in fault and fault["code"] != TAKEN:
         verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
-    if "bag" in fault and (lost := lost_at(evidence, began)) > GAP:
-        verdict.problems.append(f"the bag ends {lost:.1f} s before the fault")
+    if fault.get("alive_after", 0.0) > ORPHANED:
+        verdict.problems.append(f"nodes lived on for {fault['alive_after']:.1f} s")
+    if "bag" in fault:
+        verdict.problems += left_behind(evidence, fault["bag"], began)
     if "images" in fault:
         came = [at for at, _ in Run(evidence.seen).images.between(began, ended)]
         waits = [later - earlier for earlier, later in zip([began, *came], [*came, ended])]
@@ -132,6 +142,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         if verdict.stood is None or verdict.stood > most:
             told = "never" if verdict.stood is None else f"after {verdict.stood:.2f} s"
             verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
+    verdict.problems += air(bag, fault, began, ended)
     if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
         verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
     if "drives" in fault:
@@ -151,13 +162,39 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     return verdict
 
 
-def lost_at(evidence: Evidence, began: float) -> float:
-    """How much of what came before the fault the bag of the launch does not have, s; infinite if it cannot be read."""
-    whole_bag = evidence.own_bag.with_name("own-bag-recovered")
-    trench = str(evidence.binaries / "trench")
-    done = subprocess.run([trench, "bag", "recover", str(evidence.own_bag), str(whole_bag)], check=False)
-    times = Run(whole_bag).log_times if done.returncode == 0 else []
-    return began - max((at for at in times if at <= began), default=-math.inf)
+# Which bag a recorder that did not end as it should has left: that of the launch, in one file, or one in many, all of which but the last are finished.
+LAUNCHED, SPLIT = "launched", "split"
+
+
+def left_behind(evidence: Evidence, kind: str, began: float) -> list[str]:
+    """What is wrong with a bag whose recorder did not end as it should: as it is `trench bag info` reads it, recovered it lacks a second at most of what
+    came before the fault, and files that were finished before are whole bags by themselves."""
+    bag, trench, problems = evidence.own_bag if kind == LAUNCHED else evidence.split_bag, str(evidence.binaries / "trench"), []
+    if subprocess.run([trench, "bag", "info", str(bag)], check=False, capture_output=True).returncode != 0:
+        problems.append(f"trench bag info cannot read {bag.name} as it was left")
+    if kind == SPLIT:
+        finished = sorted(bag.glob("*.mcap"), key=lambda file: int(file.stem.rpartition("_")[2]))[:-1]
+        problems += [f"{file.name} is not whole, although the recorder had gone on to the next file" for file in finished if not is_whole(file)]
+        if not finished:
+            problems.append("no file was finished before the fault")
+    recovered = bag.with_name(f"{bag.name}-recovered")
+    shutil.rmtree(recovered, ignore_errors=True)
+    done = subprocess.run([trench, "bag", "recover", str(bag), str(recovered)], check=False, capture_output=True)
+    times = Run(recovered).log_times if done.returncode == 0 else []
+    lost = began - max((at for at in times if at <= began), default=-math.inf)
+    return problems + ([f"the bag ends {lost:.1f} s before the fault"] if lost > GAP else [])
+
+
+def is_whole(file: Path) -> bool:
+    """Whether a file of a bag has its index at the end, and a reader that knows nothing of Trench gets all that it counts."""
+    try:
+        with open(file, "rb") as stream:
+            reader = make_reader(stream, validate_crcs=True)
+            summary = reader.get_summary()
+            counted = summary.statistics if summary else None
+            return counted is not None and sum(1 for _ in reader.iter_messages()) == counted.message_count
+    except (McapError, ValueError, OSError):
+        return False
 
 
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
@@ -183,6 +220,34 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
         verdict.problems.append(f"{pattern!r} was said {-verdict.diagnosed:.2f} s before it, too: it does not name it")
     if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
         verdict.problems.append(f"nothing like {pattern!r} named it within {DIAGNOSTIC} s")
+
+
+# How many hops there are to a robot of which the base station or who hears it only through others; for which share of the time that must be so.
+RELAYED, MOSTLY = 2, 0.8
+# The share of the packets of a second that a robot misses in which there was a burst of interference.
+BURST = 0.2
+
+
+def air(bag: Run, fault: dict, began: float, ended: float) -> list[str]:
+    """What the command links must say of the air, so that the matrix does what it says: with `relayed` this robot, and with `bursts` all together at least so
+    often, were out of reach."""
+    problems = []
+    if robot := fault.get("relayed"):
+        hops = [hops for _, (_, _, hops) in bag.links.get(robot, Series()).between(began, ended)]
+        share = sum(count >= RELAYED for count in hops) / len(hops) if hops else 0.0
+        if share < MOSTLY:
+            problems.append(f"{robot} was reached through others for {share:.0%} of the time only")
+        for other in sorted(bag.links.keys() - {robot}):
+            if any(count >= RELAYED for _, (_, _, count) in bag.links[other].between(began, ended)):
+                problems.append(f"{other} was out of reach, too")
+    if "bursts" in fault:
+        # Where each robot's second was bad at once nobody heard anybody.
+        bad = [[loss > BURST for _, (_, loss, _) in series.between(began, ended)] for series in bag.links.values()]
+        together = [all(seconds) for seconds in zip(*bad)]
+        met = sum(now and not before for before, now in zip([False, *together], together))
+        if met < fault["bursts"]:
+            problems.append(f"there were {met} bursts of interference, not {fault['bursts']}")
+    return problems
 
 
 def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
@@ -307,7 +372,11 @@ def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     """What the bag that the launch itself records has lost of the run, which is at most a second but for a pause of its recorder."""
     if run["arguments"].get("record") != "true" or any("bag" in fault for fault in run["faults"]):
         return []
+    if not (evidence.own_bag / "metadata.yaml").exists():
+        return ["the launch has not finished its bag"]
     own, t0, end = Run(evidence.own_bag, run.get("clocks", False)), bag.t0 or math.inf, bag.stopped or math.inf
+    # Who ends the run ends its recorder, which must have what came before.
+    end = min([end, *(fault["began"] for fault in run["faults"] if fault.get("ends") and "began" in fault)])
 
     def samples(series: Series) -> int:
         # A wall clock that jumps goes by whole hours.

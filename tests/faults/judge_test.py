@@ -5,12 +5,15 @@ usage: python -m unittest judge_test, in this folder and the environment of scri
 
 import binascii
 import json
+import os
 import struct
 import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+
+from mcap_ros2.writer import Writer
 
 import history
 import judge
@@ -44,6 +47,50 @@ def packet(speed: float) -> bytes:
     return stuffed(body + binascii.crc_hqx(body, 0xFFFF).to_bytes(2, "little"))
 
 
+# As much of nav_msgs/Odometry as a bag is judged by.
+RULE = "=" * 80 + "\nMSG: "
+ODOMETRY = f"""std_msgs/Header header
+a/Pose pose
+a/Twist twist
+{RULE}std_msgs/Header
+builtin_interfaces/Time stamp
+{RULE}a/Pose
+a/Place pose
+{RULE}a/Place
+a/Vector position
+{RULE}a/Twist
+a/Turn twist
+{RULE}a/Turn
+a/Vector linear
+a/Vector angular
+{RULE}a/Vector
+float64 x
+float64 y
+float64 z
+"""
+
+
+def write_bag(file: Path, start: float, end: float) -> None:
+    """A bag of ground truth of robot1 in small chunks, which stands somewhere."""
+    vector = {"x": 0.0, "y": 0.0, "z": 0.0}
+    with open(file, "wb") as stream:
+        writer = Writer(stream, chunk_size=500)
+        schema = writer.register_msgdef("nav_msgs/msg/Odometry", ODOMETRY)
+        for step in range(int((end - start) / FRAME)):
+            at = start + step * FRAME
+            stamp = {"sec": int(at), "nanosec": int(1e9 * (at % 1.0))}
+            message = {"header": {"stamp": stamp}, "pose": {"pose": {"position": vector}}, "twist": {"twist": {"linear": vector, "angular": vector}}}
+            writer.write_message("/ground_truth/robot1/odom", schema, message, log_time=int(1e9 * at), publish_time=int(1e9 * at))
+        writer.finish()
+
+
+def programs() -> Path:
+    """Where the programs are that were built last: scripts/test builds them first."""
+    target = Path(os.environ.get("CARGO_TARGET_DIR", matrix.ROOT / "target"))
+    built = [program for program in (target / "debug" / "trench", target / "release" / "trench") if program.exists()]
+    return max(built, key=lambda program: program.stat().st_mtime).parent
+
+
 class Judged(unittest.TestCase):
     """A robot that drives straight on behind its goal point, and stands while its camera is frozen."""
 
@@ -68,7 +115,7 @@ class Judged(unittest.TestCase):
         self.bag.diagnostics = [(BEGAN + 0.1, "/overhead_localizer: camera: frozen", b"\2")]
         self.told(pieces)
         self.evidence = judge.Evidence(
-            bag=self.folder, logs={"base": OPERATOR}, exit_code=0, memory=[], alive_after=None, own_bag=self.folder, binaries=self.folder,
+            bag=self.folder, logs={"base": OPERATOR}, exit_code=0, memory=[], alive_after=None, own_bag=self.folder, split_bag=self.folder, binaries=self.folder,
             seen=self.folder, tap=self.folder / "tap", spoken=self.folder / "spoken", refused=[], missing=[], left=[],
         )
 
@@ -209,7 +256,61 @@ class Judged(unittest.TestCase):
     def test_bags_have_no_gaps(self):
         self.bag.log_times = [at for at in self.bag.log_times if not T0 + 2.0 < at < T0 + 3.5]
         self.assertIn("the bag has a gap of 1.5 s", self.problems())
-        self.assertIn("the bag of the launch has lost", self.problems(run={"arguments": {"duration": "30.0", "record": "true"}}))
+        recorded = {"arguments": {"duration": "30.0", "record": "true"}}
+        self.assertIn("the launch has not finished its bag", self.problems(run=recorded))
+        (self.folder / "metadata.yaml").touch()
+        self.assertIn("the bag of the launch has lost", self.problems(run=recorded))
+        # Who ends the run ends its recorder: what counts came before.
+        write_bag(self.folder / "own.mcap", T0 - 1.0, BEGAN + 0.3)
+        self.assertIn("the bag of the launch has lost 19.", self.problems(run=recorded))
+        ending = {"ends": True, "began": BEGAN, "kill": "launcher"}
+        self.assertNotIn("the bag of the launch has lost", self.problems(ending, recorded, alive_after=0.1))
+        write_bag(self.folder / "own.mcap", T0 - 1.0, BEGAN - 2.0)
+        self.assertIn("the bag of the launch has lost 2.", self.problems(ending, recorded, alive_after=0.1))
+
+    def test_a_bag_that_is_left_behind_is_read_and_lacks_little(self):
+        bag, end = self.folder / "bag", T0
+        bag.mkdir()
+        for number in range(3):
+            write_bag(bag / f"bag_{number}.mcap", end, end + 3.0 + 0.5 * number)
+            end += 3.0 + 0.5 * number
+        last = bag / "bag_2.mcap"
+        last.write_bytes(last.read_bytes()[: last.stat().st_size - 1000])
+        evidence = replace(self.evidence, split_bag=bag, own_bag=bag, binaries=programs())
+        self.assertEqual(judge.left_behind(evidence, judge.SPLIT, end + 0.5), [])
+        self.assertIn("the bag ends 4.", "".join(judge.left_behind(evidence, judge.LAUNCHED, end + 4.0)))
+        first = bag / "bag_0.mcap"
+        whole = first.read_bytes()
+        for spoilt in (whole[:-200], whole[:300] + bytes([whole[300] ^ 1]) + whole[301:], b""):
+            first.write_bytes(spoilt)
+            self.assertIn("bag_0.mcap is not whole", "".join(judge.left_behind(evidence, judge.SPLIT, end + 0.5)))
+        for file in bag.glob("*.mcap"):
+            file.write_bytes(b"nothing that could be read")
+        told = "".join(judge.left_behind(evidence, judge.LAUNCHED, end))
+        self.assertIn("trench bag info cannot read bag as it was left", told)
+        self.assertIn("the bag ends inf s before", told)
+
+    def test_links_say_that_a_robot_is_out_of_reach_and_no_other(self):
+        for at in STAMPS:
+            self.bag.links.setdefault("robot1", Series()).add(at, (True, 0.0, 2 if BEGAN <= at < ENDED else 1))
+            self.bag.links.setdefault("robot2", Series()).add(at, (True, 0.0, 1))
+        self.assertEqual(self.problems({"relayed": "robot1"}), "")
+        self.assertIn("robot2 was reached through others for 0% of the time only", self.problems({"relayed": "robot2"}))
+        self.bag.links["robot2"].values[STAMPS.index(next(at for at in STAMPS if at > BEGAN + 0.5))] = (True, 0.0, 2)
+        self.assertIn("robot2 was out of reach, too", self.problems({"relayed": "robot1"}))
+
+    def test_bursts_are_what_all_links_met_at_once(self):
+        for number, robot in enumerate(("robot1", "robot2")):
+            for at in STAMPS:
+                # One burst for both; another one for robot2 alone.
+                met = BEGAN + 0.2 <= at < BEGAN + 0.4 or (number == 1 and at > BEGAN + 0.6)
+                self.bag.links.setdefault(robot, Series()).add(at, (True, 0.5 if met else 0.03, 1))
+        self.assertEqual(self.problems({"bursts": 1}), "")
+        self.assertIn("there were 1 bursts of interference, not 2", self.problems({"bursts": 2}))
+
+    def test_nodes_of_another_host_end_with_its_launcher(self):
+        self.assertEqual(self.problems({"launcher": "robot2", "alive_after": 0.3}), "")
+        self.assertIn("nodes lived on for 1.4 s", self.problems({"launcher": "robot2", "alive_after": 1.4}))
 
     def test_who_does_not_hear_its_leader_follows_the_target_meanwhile(self):
         behind, alone = {"robot4": (0, 2, "robot1")}, {"robot4": (0, 2, "")}

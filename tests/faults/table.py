@@ -6,6 +6,9 @@ import history
 import recovery
 from judge import REPORTERS
 
+# s, from the start of the test bed to t0, and for what takes no time by itself (a death, a clock that jumps): so long at most until all is as before.
+STARTS, AN_INSTANT = 1.0, 1.0
+
 HEAD = """# Faults
 
 What `scripts/faults` did to a running formation, and what came of it. Each row is one fault of
@@ -20,8 +23,8 @@ the worst of all seeds that were run:
   that is whole and has at most a second less (and a pause of its recorder). Each speed
   that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
   old commands, and nobody else's;
-- in CHANGING runs somebody wants the formation in another size while a fault is on (`changes` in the matrix): it must be granted, and formed is held
-  against the new one;
+- in CHANGING runs somebody wants the formation otherwise, in another size, in SHAPED of them in another shape (`changes` in the matrix), while a fault is on, which is so
+  for WITHIN of the FAULTS faults: it must be granted, and formed is held against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
   died or was stopped; *(itself)*: the word of the second process that does not start, or gets nothing; *(log)*: a node's word on its
   standard error, where it has no way to others; where nobody can know of it, why;
@@ -64,9 +67,30 @@ def write(runs: list[dict], results: Path, page: Path) -> None:
             unknown = f"| {fault['name']} | {run['name']} | | | | | | not run | | | - |"
             attempts = history.attempts_of(fault["name"], documents)
             lines.append(row(fault, run, met, failed_beside, attempts, stamp(alone)) if met else unknown)
-    head = HEAD.replace("CHANGING", str(sum("changes" in run for run in runs)))
+    counts = {
+        "CHANGING": sum("changes" in run for run in runs),
+        "SHAPED": sum(any("shape" in change for change in run.get("changes", [])) for run in runs),
+        "WITHIN": sum(changes_within(run) for run in runs),
+        "FAULTS": sum(len(run["faults"]) for run in runs),
+    }
+    head = HEAD
+    for word, count in counts.items():
+        head = head.replace(word, str(count))
     page.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
     recovery.write(told, page.with_name("BENCHMARKS.md"))
+
+
+def changes_within(run: dict) -> int:
+    """Into how many of its faults a change of the formation falls, by the times of the matrix."""
+    times = [change["at"] for change in run.get("changes", [])]
+    return sum(any(began <= at <= ended for at in times) for began, ended in map(window, run["faults"]))
+
+
+def window(fault: dict) -> tuple[float, float]:
+    """When a fault is on, s after t0."""
+    if "bed" in fault:
+        return fault["bed"]["from"] - STARTS, fault["bed"]["to"] - STARTS
+    return fault["at"], fault["at"] + fault.get("for", AN_INSTANT)
 
 
 def stamp(documents: list[dict]) -> str:
