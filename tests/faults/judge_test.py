@@ -19,6 +19,7 @@ import history
 import judge
 import matrix
 import recovery
+import run
 from bag import Run, Series
 from motion import FRAME
 from verdict import IN_COMPANY
@@ -296,7 +297,12 @@ class Judged(unittest.TestCase):
             self.bag.links.setdefault("robot2", Series()).add(at, (True, 0.0, 1))
         self.assertEqual(self.problems({"relayed": "robot1"}), "")
         self.assertIn("robot2 was reached through others for 0% of the time only", self.problems({"relayed": "robot2"}))
-        self.bag.links["robot2"].values[STAMPS.index(next(at for at in STAMPS if at > BEGAN + 0.5))] = (True, 0.0, 2)
+        # Once in a while is chance.
+        places = [place for place, at in enumerate(STAMPS) if BEGAN <= at < ENDED]
+        self.bag.links["robot2"].values[places[5]] = (True, 0.0, 2)
+        self.assertEqual(self.problems({"relayed": "robot1"}), "")
+        for place in places[:15]:
+            self.bag.links["robot2"].values[place] = (True, 0.0, 2)
         self.assertIn("robot2 was out of reach, too", self.problems({"relayed": "robot1"}))
 
     def test_bursts_are_what_all_links_met_at_once(self):
@@ -367,6 +373,28 @@ class Kept(unittest.TestCase):
         (self.results / "a-run" / f"1{IN_COMPANY}" / "verdicts.json").unlink()
         self.run_of("2026-11-28 08:46")
         self.assertEqual(sorted(self.attempts()), [False, True, True])
+
+
+class Sample(unittest.TestCase):
+    """What scripts/test takes by turns."""
+
+    RUNS = [run for run in matrix.runs() if run.get("sample")]
+
+    def test_it_has_every_kind_of_fault_and_takes_no_longer_than_before(self):
+        faults = [fault for run in self.RUNS for fault in run["faults"]]
+        wanted = ("kill", "pause", "publish", "double", "second", "network", "serial", "clock", "bed", "launcher", "fill", "nothing", "quits")
+        self.assertEqual([key for key in wanted if not any(key in fault for fault in faults)], [])
+        beds = {fault["bed"]["kind"] for fault in faults if "bed" in fault}
+        self.assertLessEqual({"loss", "forged", "far", "slip", "carried", "frozen", "black"}, beds)
+        self.assertTrue(any("cut" in fault.get("network", {}) for fault in faults))
+        self.assertLessEqual(max(float(run["arguments"]["duration"]) for run in self.RUNS), 50.0)
+
+    def test_over_the_turns_each_run_comes_with_each_seed(self):
+        turns = len(self.RUNS) * run.SEEDS
+        jobs = [job for turn in range(turns) for job in run.sampled(self.RUNS, turn)]
+        self.assertEqual(len(jobs), run.SAMPLE * turns)
+        for wanted in self.RUNS:
+            self.assertEqual({job.seed for job in jobs if job.run == wanted}, {1, 2, 3}, wanted["name"])
 
 
 class Pages(unittest.TestCase):
