@@ -151,12 +151,14 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
             verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
     if "rests" in fault and (least := resting_share(bag, began, ended)) < fault["rests"]:
         verdict.problems.append(f"a robot stood for {least:.0%} of the time, not {fault['rests']:.0%}")
-    if "kill" in fault:
-        verdict.rested = rest(bag, began, min(began + FORMATION, following))
-        if verdict.rested > ended - began + RESUMED:
+    if "kill" in fault or "launcher" in fault:
+        verdict.rested = rest(bag, began, min(ended + FORMATION, following))
+        if "kill" in fault and verdict.rested > ended - began + RESUMED:
             verdict.problems.append(f"a robot rested for {verdict.rested:.2f} s, and the victim lived again after {ended - began:.2f} s")
     if "pause" in fault:
-        verdict.problems += burst(bag, ended)
+        # Where robots' hosts have recorders of their own, what was held back on the way to the base station's was not sent then.
+        said = [Run(folder, run.get("clocks", False)) for folder in sorted(evidence.spoken.glob("*"))]
+        verdict.problems += [problem for record in said or [bag] for problem in burst(record, ended)]
     structure(bag, fault, (began, ended, min(ended + FORMATION, following)), verdict)
     recover(bag, ended, min(ended + FORMATION, following), verdict, fault)
     return verdict

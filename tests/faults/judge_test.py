@@ -237,6 +237,9 @@ class Judged(unittest.TestCase):
             pairs = sorted(zip(series.times, series.values))
             series.times, series.values = [at for at, _ in pairs], [value for _, value in pairs]
         self.assertIn("was commanded to move on information of", self.problems({"pause": "overhead_localizer"}))
+        # Who held them back on their way, as a router does, did not send them: a recorder on the robot's host knows.
+        (self.folder / "spoken" / "robot1").mkdir(parents=True)
+        self.assertNotIn("was commanded to move on information of", self.problems({"pause": "router"}))
 
     def test_commands_are_numbers_within_limits(self):
         for command in ((0.4, 0.0), (0.0, 9.0), (float("nan"), 0.0), (float("inf"), 0.0)):

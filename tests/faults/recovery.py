@@ -17,14 +17,15 @@ def rows(told: list[dict]) -> str:
         alone = [document for document in told if document["run"] == run["name"] and not document["in_company"]]
         for fault in run["faults"]:
             met = [verdict for document in alone for verdict in document["verdicts"] if verdict["fault"] == fault["name"]]
-            if not met or "kill" not in fault:
+            if not met or not ("kill" in fault or "launcher" in fault):
                 continue
             # Of who ends the run, and of who robots go on without, nobody waits for the next life.
             stood = worst(met, "stood") if fault.get("ends") else worst(met, "rested") or worst(met, "stood")
             lives = FOR_GOOD if fault.get("gone") or fault.get("ends") else worst(met, "lasted")
             where = f", {run['name']}" if "hosts" in run else ""
             when = ", ".join([max(document["date"] for document in alone), *dict.fromkeys(document["commit"] for document in alone)])
-            cells = [f"{fault['kill']} ({fault['name']}{where})", stood, lives, worst(met, "recovered"), str(len(met)), when]
+            victim = fault.get("kill") or f"launcher of {fault['launcher']}"
+            cells = [f"{victim} ({fault['name']}{where})", stood, lives, worst(met, "recovered"), str(len(met)), when]
             lines.append(f"| {' | '.join(cells)} |\n")
     return "".join(lines)
 
