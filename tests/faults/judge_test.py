@@ -20,6 +20,7 @@ import judge
 import matrix
 import recovery
 import run
+import table
 from bag import Run, Series
 from motion import FRAME
 from verdict import IN_COMPANY
@@ -402,6 +403,31 @@ class Sample(unittest.TestCase):
 
 class Pages(unittest.TestCase):
     """Pages of the documentation that are made of results."""
+
+    def test_the_page_of_faults_counts_changes_that_fall_into_faults(self):
+        faults = [
+            {"at": 5.0, "for": 2.0}, {"at": 10.0, "kill": "rf_bridge"}, {"at": 20.0, "clock": 1.0}, {"bed": {"from": 31.0, "to": 33.0}},
+        ]
+
+        def within(*times: float) -> int:
+            return table.changes_within({"faults": faults, "changes": [{"at": at} for at in times]})
+
+        self.assertEqual([within(at) for at in (4.9, 5.0, 7.0, 7.1, 10.5, 11.1, 20.9, 29.9, 30.0, 32.0, 32.1)], [0, 1, 1, 0, 1, 0, 1, 0, 1, 1, 0])
+        self.assertEqual(within(6.0, 6.5, 31.0), 2)
+        self.assertEqual(table.changes_within({"faults": faults}), 0)
+
+    def test_the_page_of_faults_says_who_failed_before(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "FAULTS.md"
+            (Path(folder) / "BENCHMARKS.md").write_text(recovery.BEGIN + recovery.END, encoding="utf-8")
+            document = {"run": "kills", "seed": 1, "in_company": False, "commit": "c", "date": "2026-11-28 10:00"}
+            failed = {"date": "2026-11-28 09:00", "commit": "c", "in_company": False, "problems": {"kill-bridge": "contact"}}
+            told = document | {"verdicts": [{"fault": "kill-bridge", "problems": []}], "attempts": [failed]}
+            page.with_name("faults.jsonl").write_text(json.dumps(told) + "\n", encoding="utf-8")
+            table.write(matrix.runs(), Path(folder) / "none", page)
+            rows = page.read_text(encoding="utf-8").splitlines()
+            self.assertIn("| pass | 1 of 1 | 1 of 2 |", next(row for row in rows if row.startswith("| kill-bridge |")))
+            self.assertEqual([row for row in rows if any(word in row for word in ("CHANGING", "SHAPED", "WITHIN", "RECORDED", "RUNS", "FAULTS "))], [])
 
     def test_the_benchmarks_say_what_the_results_of_the_matrix_say(self):
         docs = matrix.ROOT / "docs"

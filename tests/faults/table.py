@@ -19,8 +19,9 @@ the worst of all seeds that were run:
 
 - no contact from the start of the run to its end; no robot drives or turns on information older than 0.25 s, a frame, and what braking takes from its speed of then; the
   victim ends and no other process before the run is over, on any host, with whatever exit code, and none leaves anything in shared memory; commands of the robots' own controllers finite and within
-  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second, and where the launch records one itself,
-  that is whole and has at most a second less (and a pause of its recorder). Each speed
+  limits; memory grows by less than 10 MB, also from one life of a process to the next; the bag has no gap of a second, and where the launch records one itself (in RECORDED of the RUNS runs),
+  that is finished, whole and has at most a second less (and a pause of its recorder). A bag whose recorder was killed, or had no more room, is read as it was left, a second at
+  most is missing when it is recovered, and files that were finished before are whole bags by themselves. Each speed
   that is sent to wheels, as the serial line has it, is one that the robot's own controller commanded on information of the last 0.25 s: no burst of
   old commands, and nobody else's;
 - in CHANGING runs somebody wants the formation otherwise, in another size, in SHAPED of them in another shape (`changes` in the matrix), while a fault is on, which is so
@@ -71,6 +72,8 @@ def write(runs: list[dict], results: Path, page: Path) -> None:
         "CHANGING": sum("changes" in run for run in runs),
         "SHAPED": sum(any("shape" in change for change in run.get("changes", [])) for run in runs),
         "WITHIN": sum(changes_within(run) for run in runs),
+        "RECORDED": sum(run["arguments"].get("record") == "true" for run in runs),
+        "RUNS": len(runs),
         "FAULTS": sum(len(run["faults"]) for run in runs),
     }
     head = HEAD
