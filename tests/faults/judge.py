@@ -3,18 +3,14 @@
 import bisect
 import math
 import re
-import shutil
-import subprocess
-from dataclasses import dataclass
-from pathlib import Path
-
-from mcap.exceptions import McapError
-from mcap.reader import make_reader
 
 import beside
 import wheels
-from bag import NEAR, Run, Series
+from air import air
+from bag import NEAR, Run
+from evidence import Evidence
 from hosts import BASE
+from left import GAP, left_behind, recorded
 from motion import AGE, FRAME, allowed, burst, idle, moves, rest, resting_share, stale, standstill, stretch
 from verdict import Verdict
 
@@ -40,8 +36,6 @@ TOUCH, PUT = 0.16, 0.2
 ROBOTS_TOUCH = re.compile(r" touches robot\d+$")
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
-# s, the longest gap in the bag.
-GAP = 1.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
@@ -49,30 +43,6 @@ OK = b"\x00"
 REPORTERS = ("launcher", "itself")
 # With which a second process of a node ends.
 TAKEN = 5
-
-
-@dataclass
-class Evidence:
-    """What a run left."""
-
-    bag: Path
-    # What the launcher of each host had said when that of the base station ended.
-    logs: dict[str, str]
-    exit_code: int
-    memory: list[dict[str, int]]
-    alive_after: float | None
-    own_bag: Path
-    # Of a second recorder, which begins a new file every so often.
-    split_bag: Path
-    binaries: Path
-    seen: Path
-    tap: Path
-    spoken: Path
-    refused: list[str]
-    # What runs beside the launched processes, launchers of other hosts too, and had ended by then.
-    missing: list[str]
-    # Its files in shared memory, when all had ended.
-    left: list[str]
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -164,41 +134,6 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     return verdict
 
 
-# Which bag a recorder that did not end as it should has left: that of the launch, in one file, or one in many, all of which but the last are finished.
-LAUNCHED, SPLIT = "launched", "split"
-
-
-def left_behind(evidence: Evidence, kind: str, began: float) -> list[str]:
-    """What is wrong with a bag whose recorder did not end as it should: as it is `trench bag info` reads it, recovered it lacks a second at most of what
-    came before the fault, and files that were finished before are whole bags by themselves."""
-    bag, trench, problems = evidence.own_bag if kind == LAUNCHED else evidence.split_bag, str(evidence.binaries / "trench"), []
-    if subprocess.run([trench, "bag", "info", str(bag)], check=False, capture_output=True).returncode != 0:
-        problems.append(f"trench bag info cannot read {bag.name} as it was left")
-    if kind == SPLIT:
-        finished = sorted(bag.glob("*.mcap"), key=lambda file: int(file.stem.rpartition("_")[2]))[:-1]
-        problems += [f"{file.name} is not whole, although the recorder had gone on to the next file" for file in finished if not is_whole(file)]
-        if not finished:
-            problems.append("no file was finished before the fault")
-    recovered = bag.with_name(f"{bag.name}-recovered")
-    shutil.rmtree(recovered, ignore_errors=True)
-    done = subprocess.run([trench, "bag", "recover", str(bag), str(recovered)], check=False, capture_output=True)
-    times = Run(recovered).log_times if done.returncode == 0 else []
-    lost = began - max((at for at in times if at <= began), default=-math.inf)
-    return problems + ([f"the bag ends {lost:.1f} s before the fault"] if lost > GAP else [])
-
-
-def is_whole(file: Path) -> bool:
-    """Whether a file of a bag has its index at the end, and a reader that knows nothing of Trench gets all that it counts."""
-    try:
-        with open(file, "rb") as stream:
-            reader = make_reader(stream, validate_crcs=True)
-            summary = reader.get_summary()
-            counted = summary.statistics if summary else None
-            return counted is not None and sum(1 for _ in reader.iter_messages()) == counted.message_count
-    except (McapError, ValueError, OSError):
-        return False
-
-
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
     """When the fault was named, if anybody can know of it (a reason why not is told by `unnamed`); before, it must not have been."""
     pattern = fault.get("says")
@@ -222,38 +157,6 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
         verdict.problems.append(f"{pattern!r} was said {-verdict.diagnosed:.2f} s before it, too: it does not name it")
     if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
         verdict.problems.append(f"nothing like {pattern!r} named it within {DIAGNOSTIC} s")
-
-
-# How many hops there are to a robot of which the base station or who hears it only through others; for which share of the time that must be so.
-RELAYED, MOSTLY = 2, 0.8
-# The share of the packets of a second that a robot misses in which there was a burst of interference.
-BURST = 0.12
-
-
-def air(bag: Run, fault: dict, began: float, ended: float) -> list[str]:
-    """What the command links must say of the air, so that the matrix does what it says: with `relayed` this robot, and with `bursts` all together at least so
-    often, were out of reach."""
-    problems = []
-    if robot := fault.get("relayed"):
-        # A packet that was lost on its own way may come through others to who is near, too: once in a while.
-        shares = {name: relayed_share(series, began, ended) for name, series in bag.links.items()}
-        if shares.get(robot, 0.0) < MOSTLY:
-            problems.append(f"{robot} was reached through others for {shares.get(robot, 0.0):.0%} of the time only")
-        problems += [f"{other} was out of reach, too" for other, share in sorted(shares.items()) if other != robot and share > 1.0 - MOSTLY]
-    if "bursts" in fault:
-        # Where each robot's second was bad at once nobody heard anybody.
-        times = [at for series in list(bag.links.values())[:1] for at, _ in series.between(began, ended)]
-        together = [all((series.at(at) or (True, 0.0, 1))[1] > BURST for series in bag.links.values()) for at in times]
-        met = sum(now and not before for before, now in zip([False, *together], together))
-        if met < fault["bursts"]:
-            problems.append(f"there were {met} bursts of interference, not {fault['bursts']}")
-    return problems
-
-
-def relayed_share(links: Series, began: float, ended: float) -> float:
-    """For which share of the time a command link went through others."""
-    hops = [hops for _, (up, _, hops) in links.between(began, ended) if up]
-    return sum(count >= RELAYED for count in hops) / len(hops) if hops else 0.0
 
 
 def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
@@ -372,25 +275,6 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")
     return problems + recorded(bag, run, evidence) + [f"{name} is left in shared memory" for name in evidence.left]
-
-
-def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
-    """What the bag that the launch itself records has lost of the run, which is at most a second but for a pause of its recorder."""
-    if run["arguments"].get("record") != "true" or any("bag" in fault for fault in run["faults"]):
-        return []
-    if not (evidence.own_bag / "metadata.yaml").exists():
-        return ["the launch has not finished its bag"]
-    own, t0, end = Run(evidence.own_bag, run.get("clocks", False)), bag.t0 or math.inf, bag.stopped or math.inf
-    # Who ends the run ends its recorder, which must have what came before.
-    end = min([end, *(fault["began"] for fault in run["faults"] if fault.get("ends") and "began" in fault)])
-
-    def samples(series: Series) -> int:
-        # A wall clock that jumps goes by whole hours.
-        return sum(t0 <= at - 3600.0 * round((at - t0) / 3600.0) <= end for at in series.times)
-
-    paused = sum(fault["for"] for fault in run["faults"] if fault.get("pause") == "bag_recorder")
-    lost = {robot: FRAME * (samples(series) - samples(own.truth.get(robot, Series()))) for robot, series in bag.truth.items()}
-    return [f"the bag of the launch has lost {most:.1f} s of {robot}" for robot, most in lost.items() if most > GAP + paused]
 
 
 def contacts(bag: Run, windows: list) -> list[str]:
