@@ -198,7 +198,8 @@ class Judged(unittest.TestCase):
         self.assertIn("a robot stood for 0.8", self.problems({"drives": 0.3}))
         self.assertEqual(self.problems({"drives": 1.0}), "")
         self.assertEqual(self.problems({"drives": 0.3, "halts": ["robot1"]}), "")
-        # Who is spared may drive, who halts must not.
+        # Who is spared may stand or drive, who halts must not drive.
+        self.assertEqual(self.problems({"drives": 0.3, "spares": ["robot1"]}), "")
         self.moved(BEGAN, ENDED, SPEED)
         self.assertNotIn("stood", self.problems({"drives": 0.3, "spares": ["robot1"]}))
         self.assertIn("robot1 stood never", self.problems({"drives": 0.3, "halts": ["robot1"]}))
@@ -293,6 +294,7 @@ class Judged(unittest.TestCase):
         told = "".join(left.left_behind(evidence, left.LAUNCHED, end))
         self.assertIn("trench bag info cannot read bag as it was left", told)
         self.assertIn("the bag ends inf s before", told)
+        self.assertIn("trench bag info cannot read bag", self.problems({"bag": left.LAUNCHED}, own_bag=bag, binaries=programs()))
 
     def test_links_say_that_a_robot_is_out_of_reach_and_no_other(self):
         for at in STAMPS:

@@ -82,6 +82,7 @@ class Sample(unittest.TestCase):
         turns = len(self.RUNS) * run.SEEDS
         jobs = [job for turn in range(turns) for job in run.sampled(self.RUNS, turn)]
         self.assertEqual(len(jobs), run.SAMPLE * turns)
+        self.assertEqual({job.seed for job in jobs[: len(self.RUNS)]}, {1}, "all runs come with a seed before the next one")
         for wanted in self.RUNS:
             self.assertEqual({job.seed for job in jobs if job.run == wanted}, {1, 2, 3}, wanted["name"])
 
