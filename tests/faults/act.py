@@ -21,6 +21,8 @@ def do(fault: dict, launched: Launched, ears: inject.Ears, changes: Changes) -> 
     """Whatever the fault says."""
     if "joins" in fault:
         return join(fault, launched, changes)
+    if "launcher" in fault:
+        return kill_launcher(fault, launched)
     if "kill" in fault:
         return kill(fault, launched)
     if "dies" in fault:
@@ -36,8 +38,10 @@ def do(fault: dict, launched: Launched, ears: inject.Ears, changes: Changes) -> 
     if "serial" in fault:
         return serial(fault, launched)
     if "nothing" in fault:
-        # What it is about was done before the run.
-        return time.time(), time.time()
+        # What it is about was done before the run, or goes on all the time.
+        began = time.time()
+        time.sleep(fault.get("for", 0.0))
+        return began, time.time()
     if "fill" in fault:
         return fill(fault, launched)
     if "clock" in fault:
@@ -103,6 +107,19 @@ def killed(fault: dict, launched: Launched, others: list[int], before: int, bega
             time.sleep(0.02)
         return began, time.time()
     return began, began
+
+
+def kill_launcher(fault: dict, launched: Launched) -> tuple[float, float]:
+    """kill -9 of the launcher of a host that is not the base station; after a while somebody starts it again. Over when its nodes live again."""
+    host = fault["launcher"]
+    nodes = [pid for label, pid in launched.processes().items() if label.startswith(f"{host}:")]
+    os.kill(launched.launchers[host].pid, signal.SIGKILL)
+    began = time.time()
+    fault["alive_after"] = outlive(nodes)
+    launched.launchers[host].wait()
+    time.sleep(max(0.0, began + fault["for"] - time.time()))
+    launched.launch_again(host)
+    return began, time.time()
 
 
 def double(fault: dict, launched: Launched) -> tuple[float, float]:

@@ -59,6 +59,8 @@ class Run:
         self.assignments = Series()
         # How far each robot is from its segment, m, by its own word; infinitely where it has none.
         self.segments: dict[str, Series] = {}
+        # Of each robot's command link: whether it is up, the share of packets of the last second that were missed, hops.
+        self.links: dict[str, Series] = {}
         # Ages of images that came, s.
         self.images = Series()
         self.goals = Series()
@@ -104,6 +106,10 @@ class Run:
         elif parts[-1] == "leader_state":
             distance = message.segment_distance if message.rank > 0 else math.inf
             self.segments.setdefault(message.robot, Series()).add(self._time(message.header.stamp, at), distance)
+        elif parts[-1] == "link":
+            # Strangers say what is no number (inject.py).
+            if math.isfinite(message.loss):
+                self.links.setdefault(message.robot, Series()).add(at, (message.up, message.loss, message.hops))
         elif topic == "/assignment":
             if message.epoch < FOREIGN_EPOCH:
                 self.assignments.add(at, {member.robot: (member.queue, member.rank, member.leader) for member in message.members})

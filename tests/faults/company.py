@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import history
 import verdict
 
 # ROS domains whose ports are below those that the kernel gives away.
@@ -58,6 +59,7 @@ class Company:
     def conduct(self, jobs: list[Job]) -> None:
         """All jobs: side by side those that may, then those that must be alone, then those that failed side by side."""
         for job in jobs:
+            history.put_by(job.run, self._kept(job))
             shutil.rmtree(self._kept(job), ignore_errors=True)
         together = [job for job in jobs if self.at_once > 1 and not job.run.get("alone")]
         # The longest first, so that none is left over at the end.
@@ -92,6 +94,7 @@ class Company:
 
     def _start(self, job: Job) -> Job:
         folder = job.folder(self.results)
+        history.put_by(job.run, folder)
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         program = Path(__file__).with_name("conduct.py")

@@ -17,6 +17,7 @@ import judge
 import matrix
 import verdict
 from changes import Changes
+from evidence import Evidence
 from launched import PATIENCE, ROBOTS, Launched
 
 # How much less important judging is than what others have running, who may be timed; and all the memory that it gets, bytes.
@@ -66,9 +67,9 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
     os.nice(NICE)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     lived = [fault["alive_after"] for fault in run["faults"] if "alive_after" in fault]
-    evidence = judge.Evidence(
+    evidence = Evidence(
         bag=folder / "bag", logs=logs, exit_code=code, memory=memory, alive_after=max(lived, default=None),
-        own_bag=folder / "own-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
+        own_bag=folder / "own-bag", split_bag=folder / "split-bag", binaries=binaries, seen=launched.seen, tap=launched.tap, spoken=launched.spoken, refused=changes.problems,
         missing=missing, left=launched.left,
     )
     return judge.judge(run, windows, evidence)

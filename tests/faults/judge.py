@@ -3,15 +3,15 @@
 import bisect
 import math
 import re
-import subprocess
-from dataclasses import dataclass
-from pathlib import Path
 
 import beside
 import wheels
-from bag import NEAR, Run, Series
+from air import air
+from bag import NEAR, Run
+from evidence import Evidence
 from hosts import BASE
-from motion import AGE, FRAME, allowed, burst, idle, moves, rest, stale, standstill, stretch
+from left import GAP, left_behind, recorded
+from motion import AGE, FRAME, allowed, burst, idle, moves, rest, resting_share, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -24,6 +24,8 @@ RECOVERY, FORMATION = 2.0, 10.0
 # s, in which a robot drives again that a restarted process drives, and from a robot's silence to an assignment without it: 2 s
 # (`age.robot`), looked at once a second.
 RESUMED, QUIT = 1.0, 3.0
+# s, after a fault's end in which `drives` holds on: a fault of an instant would be no test of it.
+AFTERWARDS = 1.0
 # s, within which a robot moves that is driven, and m/s, below which a goal point rests.
 LATELY, RESTS = 0.5, 0.005
 # rad/s and m/s, beyond which no command goes.
@@ -34,8 +36,6 @@ TOUCH, PUT = 0.16, 0.2
 ROBOTS_TOUCH = re.compile(r" touches robot\d+$")
 # bytes, by which a process may grow in a run.
 GROWTH = 10_000_000
-# s, the longest gap in the bag.
-GAP = 1.0
 # s, within which nodes end when their launcher was killed.
 ORPHANED = 1.0
 OK = b"\x00"
@@ -45,28 +45,6 @@ REPORTERS = ("launcher", "itself")
 ENDS = r"(?:has died (?!.*was started again)|was stopped by a signal and does nothing)"
 # With which a second process of a node ends.
 TAKEN = 5
-
-
-@dataclass
-class Evidence:
-    """What a run left."""
-
-    bag: Path
-    # What the launcher of each host had said when that of the base station ended.
-    logs: dict[str, str]
-    exit_code: int
-    memory: list[dict[str, int]]
-    alive_after: float | None
-    own_bag: Path
-    binaries: Path
-    seen: Path
-    tap: Path
-    spoken: Path
-    refused: list[str]
-    # What runs beside the launched processes, launchers of other hosts too, and had ended by then.
-    missing: list[str]
-    # Its files in shared memory, when all had ended.
-    left: list[str]
 
 
 def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
@@ -80,6 +58,8 @@ def judge(run: dict, windows: list, evidence: Evidence) -> list[Verdict]:
         window = bag.bed_window(kind, counts.get(kind, 0))
         counts[kind] = counts.get(kind, 0) + 1
         windows.append((fault, *(window or (0.0, 0.0))))
+    for fault, began, _ in windows:
+        fault["began"] = began
     # A fault is judged until the next one begins.
     begins = sorted(began for _, began, _ in windows) + [math.inf]
     verdicts = [
@@ -99,6 +79,7 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
     if began == 0.0:
         verdict.problems.append("it never began")
         return verdict
+    verdict.lasted = ended - began
     if fault.get("touches") and bag.nearest(fault["touches"], began, began + PUT) > TOUCH:
         verdict.problems.append(f"{fault['touches']} touched nobody")
     if fault.get("rounds") and (room := beside.room(bag, run, began, ended)) > beside.NEAR:
@@ -118,8 +99,10 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         return verdict
     if "double" in fault and fault["code"] != TAKEN:
         verdict.problems.append(f"the second {fault['double']} ended with {fault['code']}, not {TAKEN}")
-    if "bag" in fault and (lost := lost_at(evidence, began)) > GAP:
-        verdict.problems.append(f"the bag ends {lost:.1f} s before the fault")
+    if fault.get("alive_after", 0.0) > ORPHANED:
+        verdict.problems.append(f"nodes lived on for {fault['alive_after']:.1f} s")
+    if "bag" in fault:
+        verdict.problems += left_behind(evidence, fault["bag"], began)
     if "images" in fault:
         came = [at for at, _ in Run(evidence.seen).images.between(began, ended)]
         waits = [later - earlier for earlier, later in zip([began, *came], [*came, ended])]
@@ -131,28 +114,26 @@ def one(bag: Run, run: dict, fault: dict, window: tuple[float, float, float], ev
         if verdict.stood is None or verdict.stood > most:
             told = "never" if verdict.stood is None else f"after {verdict.stood:.2f} s"
             verdict.problems.append(f"{', '.join(stopped)} stood {told}, not within {most:.2f} s")
+    verdict.problems += air(bag, fault, began, ended)
     if "pulses" in fault and (longest := stretch(bag, began + AGE, ended)) > fault["pulses"]:
         verdict.problems.append(f"a robot moved for {longest:.2f} s at a time")
-    if "drives" in fault and (stood := idle(bag, began, ended, fault.get("halts", []))) > fault["drives"]:
-        verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
-    if "kill" in fault:
-        verdict.rested = rest(bag, began, min(began + FORMATION, following))
-        if verdict.rested > ended - began + RESUMED:
+    if "drives" in fault:
+        spared = [*fault.get("halts", []), *fault.get("spares", [])]
+        if (stood := idle(bag, began, min(ended + AFTERWARDS, following), spared)) > fault["drives"]:
+            verdict.problems.append(f"a robot stood for {stood:.2f} s, although nothing keeps it from driving")
+    if "rests" in fault and (least := resting_share(bag, began, ended)) < fault["rests"]:
+        verdict.problems.append(f"a robot stood for {least:.0%} of the time, not {fault['rests']:.0%}")
+    if "kill" in fault or "launcher" in fault:
+        verdict.rested = rest(bag, began, min(ended + FORMATION, following))
+        if "kill" in fault and verdict.rested > ended - began + RESUMED:
             verdict.problems.append(f"a robot rested for {verdict.rested:.2f} s, and the victim lived again after {ended - began:.2f} s")
     if "pause" in fault:
-        verdict.problems += burst(bag, ended)
+        # Where robots' hosts have recorders of their own, what was held back on the way to the base station's was not sent then.
+        said = [Run(folder, run.get("clocks", False)) for folder in sorted(evidence.spoken.glob("*"))]
+        verdict.problems += [problem for record in said or [bag] for problem in burst(record, ended)]
     structure(bag, fault, (began, ended, min(ended + FORMATION, following)), verdict)
     recover(bag, ended, min(ended + FORMATION, following), verdict, fault)
     return verdict
-
-
-def lost_at(evidence: Evidence, began: float) -> float:
-    """How much of what came before the fault the bag of the launch does not have, s; infinite if it cannot be read."""
-    whole_bag = evidence.own_bag.with_name("own-bag-recovered")
-    trench = str(evidence.binaries / "trench")
-    done = subprocess.run([trench, "bag", "recover", str(evidence.own_bag), str(whole_bag)], check=False)
-    times = Run(whole_bag).log_times if done.returncode == 0 else []
-    return began - max((at for at in times if at <= began), default=-math.inf)
 
 
 def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: Verdict) -> None:
@@ -301,21 +282,6 @@ def whole(bag: Run, run: dict, evidence: Evidence) -> list[str]:
     if not gaps or max(gaps) > GAP:
         problems.append(f"the bag has a gap of {max(gaps, default=math.inf):.1f} s")
     return problems + recorded(bag, run, evidence) + [f"{name} is left in shared memory" for name in evidence.left]
-
-
-def recorded(bag: Run, run: dict, evidence: Evidence) -> list[str]:
-    """What the bag that the launch itself records has lost of the run, which is at most a second but for a pause of its recorder."""
-    if run["arguments"].get("record") != "true" or any("bag" in fault for fault in run["faults"]):
-        return []
-    own, t0, end = Run(evidence.own_bag, run.get("clocks", False)), bag.t0 or math.inf, bag.stopped or math.inf
-
-    def samples(series: Series) -> int:
-        # A wall clock that jumps goes by whole hours.
-        return sum(t0 <= at - 3600.0 * round((at - t0) / 3600.0) <= end for at in series.times)
-
-    paused = sum(fault["for"] for fault in run["faults"] if fault.get("pause") == "bag_recorder")
-    lost = {robot: FRAME * (samples(series) - samples(own.truth.get(robot, Series()))) for robot, series in bag.truth.items()}
-    return [f"the bag of the launch has lost {most:.1f} s of {robot}" for robot, most in lost.items() if most > GAP + paused]
 
 
 def contacts(bag: Run, windows: list) -> list[str]:

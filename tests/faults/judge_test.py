@@ -4,7 +4,7 @@ usage: python -m unittest judge_test, in this folder and the environment of scri
 """
 
 import binascii
-import json
+import os
 import struct
 import tempfile
 import unittest
@@ -12,10 +12,14 @@ from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+from mcap_ros2.writer import Writer
+
 import judge
+import left
 import matrix
-import recovery
+import motion
 from bag import Run, Series
+from evidence import Evidence
 from motion import FRAME
 from wheels import PIECE, SPEED_TIMES_TIMER
 
@@ -42,6 +46,52 @@ def packet(speed: float) -> bytes:
     return stuffed(body + binascii.crc_hqx(body, 0xFFFF).to_bytes(2, "little"))
 
 
+# As much of nav_msgs/Odometry as a bag is judged by.
+RULE = "=" * 80 + "\nMSG: "
+ODOMETRY = f"""std_msgs/Header header
+a/Pose pose
+a/Twist twist
+{RULE}std_msgs/Header
+builtin_interfaces/Time stamp
+{RULE}a/Pose
+a/Place pose
+{RULE}a/Place
+a/Vector position
+{RULE}a/Twist
+a/Turn twist
+{RULE}a/Turn
+a/Vector linear
+a/Vector angular
+{RULE}a/Vector
+float64 x
+float64 y
+float64 z
+"""
+
+
+def write_bag(file: Path, start: float, end: float) -> None:
+    """A bag of ground truth of robot1 in small chunks, which stands somewhere."""
+    vector = {"x": 0.0, "y": 0.0, "z": 0.0}
+    with open(file, "wb") as stream:
+        writer = Writer(stream, chunk_size=500)
+        schema = writer.register_msgdef("nav_msgs/msg/Odometry", ODOMETRY)
+        for step in range(int((end - start) / FRAME)):
+            at = start + step * FRAME
+            stamp = {"sec": int(at), "nanosec": int(1e9 * (at % 1.0))}
+            message = {"header": {"stamp": stamp}, "pose": {"pose": {"position": vector}}, "twist": {"twist": {"linear": vector, "angular": vector}}}
+            writer.write_message("/ground_truth/robot1/odom", schema, message, log_time=int(1e9 * at), publish_time=int(1e9 * at))
+        writer.finish()
+
+
+def programs() -> Path:
+    """Where the programs are that were built last: scripts/test builds them first."""
+    target = Path(os.environ.get("CARGO_TARGET_DIR", matrix.ROOT / "target"))
+    built = [program for program in (target / "debug" / "trench", target / "release" / "trench") if program.exists()]
+    if not built:
+        raise FileNotFoundError(f"there is no trench in {target}: build it by cargo build --workspace --bins")
+    return max(built, key=lambda program: program.stat().st_mtime).parent
+
+
 class Judged(unittest.TestCase):
     """A robot that drives straight on behind its goal point, and stands while its camera is frozen."""
 
@@ -65,8 +115,8 @@ class Judged(unittest.TestCase):
                 pieces.append((at + 0.001, packet(SPEED)))
         self.bag.diagnostics = [(BEGAN + 0.1, "/overhead_localizer: camera: frozen", b"\2")]
         self.told(pieces)
-        self.evidence = judge.Evidence(
-            bag=self.folder, logs={"base": OPERATOR}, exit_code=0, memory=[], alive_after=None, own_bag=self.folder, binaries=self.folder,
+        self.evidence = Evidence(
+            bag=self.folder, logs={"base": OPERATOR}, exit_code=0, memory=[], alive_after=None, own_bag=self.folder, split_bag=self.folder, binaries=self.folder,
             seen=self.folder, tap=self.folder / "tap", spoken=self.folder / "spoken", refused=[], missing=[], left=[],
         )
 
@@ -166,6 +216,25 @@ class Judged(unittest.TestCase):
         self.assertIn("a robot stood for 0.8", self.problems({"drives": 0.3}))
         self.assertEqual(self.problems({"drives": 1.0}), "")
         self.assertEqual(self.problems({"drives": 0.3, "halts": ["robot1"]}), "")
+        # Who is spared may stand or drive, who halts must not drive.
+        self.assertEqual(self.problems({"drives": 0.3, "spares": ["robot1"]}), "")
+        self.moved(BEGAN, ENDED, SPEED)
+        self.assertNotIn("stood", self.problems({"drives": 0.3, "spares": ["robot1"]}))
+        self.assertIn("robot1 stood never", self.problems({"drives": 0.3, "halts": ["robot1"]}))
+
+    def test_robots_must_drive_after_a_fault_of_an_instant(self):
+        self.moved(BEGAN, ENDED, SPEED)
+        self.assertNotIn("a robot stood", self.problems({"drives": 0.3}))
+        self.moved(ENDED + 0.2, ENDED + 0.8, 0.0)
+        self.assertIn("a robot stood for 0.6", self.problems({"drives": 0.3}))
+
+    def test_robots_must_stand_for_most_of_the_time_where_control_is_mostly_not_safe(self):
+        self.assertEqual(self.problems({"rests": 0.8, "pulses": 0.3}), "")
+        self.moved(BEGAN + 0.3, BEGAN + 0.7, SPEED)
+        self.assertIn("a robot stood for 4", self.problems({"rests": 0.8}))
+        self.assertIn("a robot moved for 0.3", self.problems({"pulses": 0.3}))
+        self.bag.truth["robot1"] = Series()
+        self.assertEqual(motion.resting_share(self.bag, BEGAN, ENDED), 0.0)
 
     def test_no_robot_moves_on_what_is_old(self):
         self.told([(at + 0.001, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 5.0])
@@ -187,6 +256,9 @@ class Judged(unittest.TestCase):
             pairs = sorted(zip(series.times, series.values))
             series.times, series.values = [at for at, _ in pairs], [value for _, value in pairs]
         self.assertIn("was commanded to move on information of", self.problems({"pause": "overhead_localizer"}))
+        # Who held them back on their way, as a router does, did not send them: a recorder on the robot's host knows.
+        (self.folder / "spoken" / "robot1").mkdir(parents=True)
+        self.assertNotIn("was commanded to move on information of", self.problems({"pause": "router"}))
 
     def test_commands_are_numbers_within_limits(self):
         for command in ((0.4, 0.0), (0.0, 9.0), (float("nan"), 0.0), (float("inf"), 0.0)):
@@ -207,7 +279,67 @@ class Judged(unittest.TestCase):
     def test_bags_have_no_gaps(self):
         self.bag.log_times = [at for at in self.bag.log_times if not T0 + 2.0 < at < T0 + 3.5]
         self.assertIn("the bag has a gap of 1.5 s", self.problems())
-        self.assertIn("the bag of the launch has lost", self.problems(run={"arguments": {"duration": "30.0", "record": "true"}}))
+        recorded = {"arguments": {"duration": "30.0", "record": "true"}}
+        self.assertIn("the launch has not finished its bag", self.problems(run=recorded))
+        (self.folder / "metadata.yaml").touch()
+        self.assertIn("the bag of the launch has lost", self.problems(run=recorded))
+        # Who ends the run ends its recorder: what counts came before.
+        write_bag(self.folder / "own.mcap", T0 - 1.0, BEGAN + 0.3)
+        self.assertIn("the bag of the launch has lost 19.", self.problems(run=recorded))
+        ending = {"ends": True, "began": BEGAN, "kill": "launcher"}
+        self.assertNotIn("the bag of the launch has lost", self.problems(ending, recorded, alive_after=0.1))
+        write_bag(self.folder / "own.mcap", T0 - 1.0, BEGAN - 2.0)
+        self.assertIn("the bag of the launch has lost 2.", self.problems(ending, recorded, alive_after=0.1))
+
+    def test_a_bag_that_is_left_behind_is_read_and_lacks_little(self):
+        bag, end = self.folder / "bag", T0
+        bag.mkdir()
+        for number in range(3):
+            write_bag(bag / f"bag_{number}.mcap", end, end + 3.0 + 0.5 * number)
+            end += 3.0 + 0.5 * number
+        last = bag / "bag_2.mcap"
+        last.write_bytes(last.read_bytes()[: last.stat().st_size - 1000])
+        evidence = replace(self.evidence, split_bag=bag, own_bag=bag, binaries=programs())
+        self.assertEqual(left.left_behind(evidence, left.SPLIT, end + 0.5), [])
+        self.assertIn("the bag ends 4.", "".join(left.left_behind(evidence, left.LAUNCHED, end + 4.0)))
+        first = bag / "bag_0.mcap"
+        whole = first.read_bytes()
+        for spoilt in (whole[:-200], whole[:300] + bytes([whole[300] ^ 1]) + whole[301:], b""):
+            first.write_bytes(spoilt)
+            self.assertIn("bag_0.mcap is not whole", "".join(left.left_behind(evidence, left.SPLIT, end + 0.5)))
+        for file in bag.glob("*.mcap"):
+            file.write_bytes(b"nothing that could be read")
+        told = "".join(left.left_behind(evidence, left.LAUNCHED, end))
+        self.assertIn("trench bag info cannot read bag as it was left", told)
+        self.assertIn("the bag ends inf s before", told)
+        self.assertIn("trench bag info cannot read bag", self.problems({"bag": left.LAUNCHED}, own_bag=bag, binaries=programs()))
+
+    def test_links_say_that_a_robot_is_out_of_reach_and_no_other(self):
+        for at in STAMPS:
+            self.bag.links.setdefault("robot1", Series()).add(at, (True, 0.0, 2 if BEGAN <= at < ENDED else 1))
+            self.bag.links.setdefault("robot2", Series()).add(at, (True, 0.0, 1))
+        self.assertEqual(self.problems({"relayed": "robot1"}), "")
+        self.assertIn("robot2 was reached through others for 0% of the time only", self.problems({"relayed": "robot2"}))
+        # Once in a while is chance.
+        places = [place for place, at in enumerate(STAMPS) if BEGAN <= at < ENDED]
+        self.bag.links["robot2"].values[places[5]] = (True, 0.0, 2)
+        self.assertEqual(self.problems({"relayed": "robot1"}), "")
+        for place in places[:15]:
+            self.bag.links["robot2"].values[place] = (True, 0.0, 2)
+        self.assertIn("robot2 was out of reach, too", self.problems({"relayed": "robot1"}))
+
+    def test_bursts_are_what_all_links_met_at_once(self):
+        for number, robot in enumerate(("robot1", "robot2")):
+            for at in STAMPS:
+                # One burst for both; another one for robot2 alone.
+                met = BEGAN + 0.2 <= at < BEGAN + 0.4 or (number == 1 and at > BEGAN + 0.6)
+                self.bag.links.setdefault(robot, Series()).add(at, (True, 0.5 if met else 0.03, 1))
+        self.assertEqual(self.problems({"bursts": 1}), "")
+        self.assertIn("there were 1 bursts of interference, not 2", self.problems({"bursts": 2}))
+
+    def test_nodes_of_another_host_end_with_its_launcher(self):
+        self.assertEqual(self.problems({"launcher": "robot2", "alive_after": 0.3}), "")
+        self.assertIn("nodes lived on for 1.4 s", self.problems({"launcher": "robot2", "alive_after": 1.4}))
 
     def test_who_does_not_hear_its_leader_follows_the_target_meanwhile(self):
         behind, alone = {"robot4": (0, 2, "robot1")}, {"robot4": (0, 2, "")}
@@ -216,18 +348,6 @@ class Judged(unittest.TestCase):
         self.assertEqual(self.problems({"retargets": "robot4"}), "")
         self.bag.assignments.values[1] = behind
         self.assertIn("robot4 followed 'robot1' before, 'robot1' meanwhile", self.problems({"retargets": "robot4"}))
-
-
-class Pages(unittest.TestCase):
-    """Pages of the documentation that are made of results."""
-
-    def test_the_benchmarks_say_what_the_results_of_the_matrix_say(self):
-        docs = matrix.ROOT / "docs"
-        told = [json.loads(line) for line in (docs / "faults.jsonl").read_text(encoding="utf-8").splitlines()]
-        rows = recovery.rows(told)
-        self.assertIn("| rf_bridge (kill-bridge) |", rows)
-        page = (docs / "BENCHMARKS.md").read_text(encoding="utf-8")
-        self.assertIn(recovery.BEGIN + recovery.HEAD + rows + recovery.END, page)
 
 
 if __name__ == "__main__":

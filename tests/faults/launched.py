@@ -98,6 +98,8 @@ class Launched:
         self.state = MEMORY / f"trench-faults-{os.getpid()}"
         self.hosts = Hosts(run["hosts"], ROBOTS, seed) if "hosts" in run else None
         self.launchers: dict[str, subprocess.Popen] = {}
+        # What each of them was started with: a launch file and its arguments.
+        self.files: dict[str, tuple[str, dict[str, str]]] = {}
         self.recorder, self.line, self.disk = None, None, None
         # What runs beside the launch, by name, and what somebody on another host saw.
         self.named: dict[str, subprocess.Popen] = {}
@@ -165,6 +167,11 @@ class Launched:
             for robot in ROBOTS:
                 if robot != run.get("late"):
                     self.switch_on(robot)
+        if "splits" in run:
+            self.named["splitting recorder"] = self.start(
+                BASE, "bag_recorder", "--ros-args", "-r", "__node:=splitter", "-p", f"output:={self.folder / 'split-bag'}",
+                "-p", f"robots:=[{', '.join(ROBOTS)}]", "-p", f"max_bag_duration:={run['splits']}",
+            )
         if "view" in run:
             self.named["view"] = self.start(BASE, "trench", "view", "--port", "0")
             self._camera()
@@ -200,10 +207,19 @@ class Launched:
 
     def launch(self, host: str, file: str, **arguments: str) -> None:
         """Starts a launch file on a host."""
+        self.files[host] = (file, arguments)
         self.launchers[host] = self.start(
             host, "trench", "launch", str(ROOT / "launch" / f"{file}.launch.yaml"),
             "--run-dir", str(self.folder / "launch" / host), *(f"{name}:={value}" for name, value in arguments.items()),
         )
+
+    def launch_again(self, host: str) -> None:
+        """Starts on a host what was started there before, and waits until it is."""
+        before = self.folder / "launch" / host
+        before.rename(before.with_name(f"{host}-before"))
+        file, arguments = self.files[host]
+        self.launch(host, file, **arguments)
+        wait_for(lambda: "process started with pid" in self.log(host))
 
     def environment(self, host: str, true_clock: bool = False) -> dict[str, str]:
         """Of a process on a host."""

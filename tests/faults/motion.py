@@ -88,6 +88,12 @@ def idle(bag: Run, began: float, until: float, without: Sequence[str]) -> float:
     return max(((span.following or until) - span.first for span in spans(bag, began, until, without) if not span.moving), default=0.0)
 
 
+def resting_share(bag: Run, began: float, until: float) -> float:
+    """For which share of the time the robot that stood least did stand; nothing of whom nobody saw."""
+    seen = [[moves(state) for _, state in series.between(began, until)] for series in bag.truth.values()]
+    return min((moving.count(False) / len(moving) if moving else 0.0 for moving in seen), default=0.0)
+
+
 def stale(bag: Run, basis: dict[str, Series]) -> list[str]:
     """Robots that move although the newest information that their wheels were told to turn on is too old, and braking would be over."""
     problems = []

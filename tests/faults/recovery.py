@@ -5,24 +5,35 @@ from pathlib import Path
 import matrix
 
 BEGIN, END = "<!-- recovery -->\n", "<!-- end of recovery -->\n"
-HEAD = "| who was killed | stood, s | seeds | date (UTC), commits |\n|---|---|---|---|\n"
+HEAD = "| who was killed | stood, s | lives again after, s | driven after that, s | seeds | date (UTC), commits |\n|---|---|---|---|---|---|\n"
+# Where nobody starts what was killed again.
+FOR_GOOD = "for good"
 
 
 def rows(told: list[dict]) -> str:
-    """A line for each death on one host that somebody misses, of runs that had the machine to themselves."""
+    """A line for each death, of runs that had the machine to themselves."""
     lines = []
     for run in matrix.runs():
-        kills = {fault["name"]: fault["kill"] for fault in run["faults"] if "kill" in fault and not fault.get("ends")}
-        if "hosts" in run or "view" in run:
-            continue
         alone = [document for document in told if document["run"] == run["name"] and not document["in_company"]]
-        for name, victim in kills.items():
-            met = [verdict["rested"] for document in alone for verdict in document["verdicts"] if verdict["fault"] == name and "rested" in verdict]
-            if met:
-                commits = dict.fromkeys(document["commit"] for document in alone)
-                when = ", ".join([max(document["date"] for document in alone), *commits])
-                lines.append(f"| {victim} ({name}) | {max(met):.2f} | {len(met)} | {when} |\n")
+        for fault in run["faults"]:
+            met = [verdict for document in alone for verdict in document["verdicts"] if verdict["fault"] == fault["name"]]
+            if not met or not ("kill" in fault or "launcher" in fault):
+                continue
+            # Of who ends the run, and of who robots go on without, nobody waits for the next life.
+            stood = worst(met, "stood") if fault.get("ends") else worst(met, "rested") or worst(met, "stood")
+            lives = FOR_GOOD if fault.get("gone") or fault.get("ends") else worst(met, "lasted")
+            where = f", {run['name']}" if "hosts" in run else ""
+            when = ", ".join([max(document["date"] for document in alone), *dict.fromkeys(document["commit"] for document in alone)])
+            victim = fault.get("kill") or f"launcher of {fault['launcher']}"
+            cells = [f"{victim} ({fault['name']}{where})", stood, lives, worst(met, "recovered"), str(len(met)), when]
+            lines.append(f"| {' | '.join(cells)} |\n")
     return "".join(lines)
+
+
+def worst(met: list[dict], key: str) -> str:
+    """The longest time, or nothing where none was taken."""
+    times = [verdict[key] for verdict in met if key in verdict]
+    return f"{max(times):.2f}" if times else ""
 
 
 def write(told: list[dict], page: Path) -> None:

@@ -17,6 +17,8 @@ class Verdict:
     fault: str
     run: str
     problems: list[str] = field(default_factory=list)
+    # How long the fault lasted, s: of a process that was killed, until it lived again.
+    lasted: float | None = None
     diagnosed: float | None = None
     stood: float | None = None
     rested: float | None = None
