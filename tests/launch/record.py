@@ -19,15 +19,20 @@ NO_OBSTACLES = "obstacles:=''"
 POSES = "poses:=[0.5, 0.5, 0.0, 1.0, 1.5, -0.25]"
 # What each file is run with; by default nothing, and what most take.
 USUAL = [[], ["together:=true"], ["record:=true", "bag:=run/a bag"], ["render:=false", "bed:=ideal", "seed:=7"]]
+# Those whose robots follow one another may be split over hosts.
+SPLIT = [*USUAL, ["controllers:=false"], ["bridge:=false", "key:=/etc/trench/key"]]
 CASES = {
     "bed": [[TEAM, POSES], [TEAM, POSES, "render:=false", "lasers:=[robot2]", "known_poses:=[]", "robot_reach:=1.5"]],
     "bridge_host": [[TEAM, "port:=/dev/ttyUSB0"], [TEAM, "port:=/dev/ttyUSB0", "read_best_effort:=[\"*\"]"]],
-    "column": [*USUAL, ["target_robot:=robot5", "formation:=behind", "everybody:=[robot1, robot2, robot3, robot4, robot5]"]],
+    "chain": SPLIT,
+    "column": [*SPLIT, ["target_robot:=robot5", "formation:=behind", "everybody:=[robot1, robot2, robot3, robot4, robot5]"]],
     "controller": [["robot:=robot1", TEAM], ["robot:=robot2", TEAM, "world:=large", "profile:=thesis"]],
     "controllers": [[TEAM], ["robots:=[robot1]", "profile:=chain"]],
-    "pursuit": [*USUAL, ["order:=nearest"], [NO_OBSTACLES], ["lasers:=[robot1, robot5]", "publish_obstacles:=false"]],
-    "nearest_chain": [*USUAL, [NO_OBSTACLES]],
-    "robot_host": [["robot:=robot1", TEAM], ["robot:=robot1", TEAM, "read_best_effort:=[/team_state, /goals]"]],
+    "corridor": SPLIT,
+    "pursuit": [*SPLIT, ["order:=nearest"], [NO_OBSTACLES], ["lasers:=[robot1, robot5]", "publish_obstacles:=false"]],
+    "nearest_chain": [*SPLIT, [NO_OBSTACLES]],
+    "robot_host": [["robot:=robot1", TEAM], ["robot:=robot1", TEAM, "read_best_effort:=[/team_state, /goals]"],
+                   ["robot:=robot2", TEAM, "profile:=chain", "world:=large", "face:=arrived"]],
     "router": [[]],
     "square": [*USUAL, ["controllers:=false", "bridge:=false", "testbed:=false"], ["known_poses:=[]", "key:=/etc/trench/key"]],
     "team": [[TEAM, POSES, "formation:=square", "profile:=tuned", f"together:={together}", "bed:=honest", "seed:=1",

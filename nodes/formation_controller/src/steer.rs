@@ -70,7 +70,7 @@ impl Tick {
             curve: segments.curve(member.queue).ok_or(Hold::NoPlace)?,
             map_from_segment,
             motion,
-            goal: self.drawing(settings, (&member.leader, rank), (at, acts), goal, &chain)?,
+            goal: self.drawing(settings, (&member.leader, rank), acts, goal, &chain)?,
             leader: chain.leader.filter(|_| zoned).map(|ahead| ahead.leader),
             ahead: if zoned { &chain.others } else { &[] },
             places: if zoned { &chain.places } else { &[] },
@@ -140,7 +140,7 @@ impl Tick {
         &self,
         settings: &DynamicSettings,
         (leader_name, rank): (&str, u32),
-        (at, acts): (Times, RosTime),
+        acts: RosTime,
         goal: GoalMotion,
         chain: &Chain,
     ) -> Result<Option<GoalMotion>, Hold> {
@@ -148,8 +148,7 @@ impl Tick {
             return Ok(None);
         }
         let Some(leader) = chain.leader else { return Ok(Some(settings.law.goal(goal))) };
-        let fresh = (at, self.settings.goal_age_limit);
-        let (leaders, _) = self.inputs.goals.of(leader_name, acts, fresh).ok_or(Hold::NoGoal)?;
+        let (leaders, _) = self.inputs.goals.of(leader_name, acts).ok_or(Hold::NoGoal)?;
         Ok(Some(DynamicLaw::behind(leader.leader.state, leaders, goal)))
     }
 

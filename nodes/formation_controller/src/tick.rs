@@ -223,11 +223,14 @@ impl Tick {
         if self.inputs.run.as_ref().is_none_or(|run| run.state != RunState::RUNNING) {
             return Err(Hold::NotRunning);
         }
+        // Goals lead robots by their frame as well as by their points: who has none that are young rests, lost or not.
+        if !self.inputs.goals.are_young(at, self.settings.goal_age_limit) {
+            return Err(Hold::NoGoal);
+        }
         let ahead = self.predictor.predict(pose_of(&state), command.exposure, acts);
-        let fresh = (at, self.settings.goal_age_limit);
         let recovery = self.recovery(at, acts, ahead);
         command.lost = recovery.is_some();
-        let assigned = || self.inputs.goals.of(&self.settings.robot, acts, fresh);
+        let assigned = || self.inputs.goals.of(&self.settings.robot, acts);
         let goal = recovery.map(|point| (point, Goal::PHASE_APPROACH)).or_else(assigned).ok_or(Hold::NoGoal)?;
         let mut wanted = match self.settings.dynamic.clone() {
             None => self.track(ahead, goal),

@@ -3,7 +3,7 @@
 use super::{Heard, Inputs, stamps::timely, vector};
 use crate::refusal::Refusal;
 use nalgebra::{Isometry2, UnitComplex};
-use trench_core::{RosTime, Steady, Times};
+use trench_core::{RosTime, Times};
 use trench_formation::laws::{GoalMotion, RigidMotion};
 use trench_msgs::msg::{Goal, Goals};
 
@@ -44,7 +44,15 @@ impl Said {
         Some(RosTime::from(&self.0.as_ref()?.message.header.stamp))
     }
 
-    /// Pose and motion of the formation's frame at `time`.
+    /// Whether they were neither received nor made more than `age_limit` seconds ago: what is older drives nobody.
+    pub(crate) fn are_young(&self, at: Times, age_limit: f64) -> bool {
+        self.0.as_ref().is_some_and(|heard| {
+            let made = RosTime::from(&heard.message.header.stamp);
+            at.steady.seconds_since(heard.at) <= age_limit && at.ros.seconds_since(made) <= age_limit
+        })
+    }
+
+    /// Pose and motion of the formation's frame at `time`, however old: whoever drives by it asks whether the goals are young.
     pub(crate) fn frame(&self, time: RosTime) -> Option<(Isometry2<f64>, RigidMotion)> {
         let message = &self.0.as_ref()?.message;
         let frame = &message.frame;
@@ -60,20 +68,12 @@ impl Said {
         Some(motion.carried(Isometry2::from_parts(origin.position.into(), rotation), elapsed))
     }
 
-    /// The goal of `robot` at `time` and its phase, if the goals were neither received nor made more than `age_limit` seconds ago.
-    pub(crate) fn of(&self, robot: &str, time: RosTime, (at, age_limit): (Times, f64)) -> Option<(GoalMotion, u8)> {
-        let heard = self.0.as_ref().filter(|goals| is_fresh(goals, at.steady, age_limit))?;
-        let stamp = RosTime::from(&heard.message.header.stamp);
-        if at.ros.seconds_since(stamp) > age_limit {
-            return None;
-        }
-        let goal = heard.message.goals.iter().find(|goal| goal.robot == robot)?;
-        Some((extrapolate(goal, time.seconds_since(stamp)), goal.phase))
+    /// The goal of `robot` at `time` and its phase, however old.
+    pub(crate) fn of(&self, robot: &str, time: RosTime) -> Option<(GoalMotion, u8)> {
+        let message = &self.0.as_ref()?.message;
+        let goal = message.goals.iter().find(|goal| goal.robot == robot)?;
+        Some((extrapolate(goal, time.seconds_since(RosTime::from(&message.header.stamp))), goal.phase))
     }
-}
-
-fn is_fresh(goals: &Heard<Goals>, now: Steady, age_limit: f64) -> bool {
-    now.seconds_since(goals.at) <= age_limit
 }
 
 /// The goal point `ahead` seconds after its stamp: it moves for `remaining` seconds and rests then.
@@ -91,6 +91,7 @@ fn extrapolate(goal: &Goal, ahead: f64) -> GoalMotion {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trench_core::Steady;
     use trench_msgs::msg::Point2;
 
     #[test]
@@ -117,10 +118,12 @@ mod tests {
         let goals = Goals { goals: vec![Goal { robot: "r".to_owned(), ..Default::default() }], ..Default::default() };
         let mut inputs = Inputs::default();
         inputs.take_goals(at(0.1, 0.0), goals).unwrap();
-        let goal = |robot: &str, ros, steady| inputs.goals.of(robot, RosTime(0), (at(ros, steady), 0.5)).is_some();
-        assert!(goal("r", 0.4, 0.4));
-        assert!(!goal("r", 0.4, 0.6), "received too long ago");
-        assert!(!goal("r", 0.6, 0.1), "made too long ago");
-        assert!(!goal("s", 0.1, 0.0));
+        let are_young = |ros, steady| inputs.goals.are_young(at(ros, steady), 0.5);
+        assert!(are_young(0.4, 0.4));
+        assert!(!are_young(0.4, 0.6), "received too long ago");
+        assert!(!are_young(0.6, 0.1), "made too long ago");
+        assert!(!Said::default().are_young(at(0.0, 0.0), 0.5), "never heard");
+        let goal = |robot: &str| inputs.goals.of(robot, RosTime(0)).is_some();
+        assert!(goal("r") && !goal("s"));
     }
 }

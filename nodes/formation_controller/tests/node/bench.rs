@@ -120,10 +120,19 @@ impl Bench {
 
     /// Everything a running controller hears, with the goal 0.5 m ahead of a robot that looks at it.
     pub(crate) fn running(&mut self) {
+        self.running_without_goals();
+        self.goals();
+    }
+
+    /// The same but for the goals.
+    pub(crate) fn running_without_goals(&mut self) {
         self.send("/run_state", &RunState { state: RunState::RUNNING, ..Default::default() });
         self.obstacles.header.stamp = self.times().ros.into();
         let obstacles = self.obstacles.to_cdr();
         self.send_bytes("/apparent_obstacles", &obstacles);
+    }
+
+    fn goals(&mut self) {
         let position = self.goal;
         let goal =
             Goal { robot: "robot1".to_owned(), position, velocity: self.moves, remaining: 1e9, ..Default::default() };

@@ -110,6 +110,27 @@ fn a_follower_that_hears_nobody_goes_along_the_segment_until_it_does() {
     assert_eq!(state.hears, ["robot2"]);
 }
 
+/// The way to the team is told by the goals' frame: old goals lead nobody, whether it hears its team or not.
+#[test]
+fn a_lost_robot_that_hears_no_goals_either_rests() {
+    let mut bench = follower();
+    follow(&mut bench, 30, Some(1.9));
+    follow(&mut bench, 75, None);
+    assert!(bench.says().contains("hears nobody of its queue"), "{}", bench.says());
+    // That of the tick before.
+    let heard = bench.seconds - PERIOD;
+    while bench.seconds < heard + 3.0 {
+        bench.running_without_goals();
+        let command = bench.tick(&bench.team(RobotState::STATUS_TRACKED, 0.0));
+        let is_old = bench.seconds - heard > 0.45;
+        assert_eq!(command.twist.linear.x == 0.0, is_old, "{} s: {command:?}", bench.seconds - heard);
+        assert_eq!(bench.says().contains("no goal is heard"), is_old, "{}", bench.says());
+        bench.seconds += PERIOD;
+    }
+    follow(&mut bench, 75, None);
+    assert!(bench.last_command().twist.linear.x > 0.1, "with goals it goes on: {}", bench.says());
+}
+
 #[test]
 fn a_follower_without_a_leader_is_drawn_to_its_goal() {
     let mut bench = follower();
