@@ -201,6 +201,16 @@ mod tests {
         check("abs(x) - 0.001*tanh(100000*(x - 1.2345678))*1.1 - 0.001*tanh(123456.78)*1.1", "at x = 1.2345");
     }
 
+    /// A kink upward at an irrational place, and a slope that has a corner there and falls steeply behind: regular, both.
+    #[test]
+    fn irrational_places_may_be_regular() {
+        assert!(check_admissibility(&written("max(x^2, sqrt(2)*abs(x))"), 10.0).is_ok());
+        let text = "sign(x)*min(1e7*abs(x), max(2*sqrt(2) - 1e7*abs(x), 0.5))";
+        let slope = trench_expression::Expression::parse(text).unwrap();
+        let found = check_admissibility(&Written::new(slope, Meaning::Slope, 10.0).unwrap(), 10.0);
+        assert!(found.is_ok(), "{found:?}");
+    }
+
     /// The constant of a formula is a bound, however narrow the place of the largest slope is.
     #[test]
     fn the_lipschitz_constant_is_a_bound() {
@@ -240,6 +250,14 @@ mod tests {
         let first = SlopeTable::new(vec![(0.0, 0.0), (1.0, 4.0), (1.0, 1.0)]).unwrap();
         let found = check_admissibility(&first, 10.0);
         assert!(matches!(found, Err(Inadmissible::NotRegular { x, .. }) if x.abs() == 1.0), "{found:?}");
+        // The same at irrational places: (1 + sqrt 9.8)/4, and (0.1 + sqrt 16.01)/2.
+        for (text, kink) in
+            [("min(2*x^2, abs(x) + 1.1)", 1.032_623_792_124_926), ("min(x^2, 4 + abs(x)/10)", 2.050_624_902_374_256)]
+        {
+            let found = check_admissibility(&written(text), 10.0);
+            let refused = matches!(found, Err(Inadmissible::NotRegular { x, .. }) if (x.abs() - kink).abs() < 1e-8);
+            assert!(refused, "{text}: {found:?}");
+        }
         let inverted = SlopeTable::new(vec![(0.0, -1.0)]).unwrap();
         assert!(matches!(check_admissibility(&inverted, 1.0), Err(Inadmissible::NotRegular { .. })));
         assert!(matches!(
