@@ -1,6 +1,6 @@
 //! Definition 5.2.1, with what it lacks: x phi(x) > 0, and Lipschitz locally instead of globally (ERRATA).
-use super::Trench;
 use super::steepest::steepest;
+use super::{Interval, Trench};
 
 /// A trench that passed on the range that was looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Admissible {
 }
 
 /// Proofs begin at this share of the range.
-const NEAREST: f64 = 1e-9;
+pub(super) const NEAREST: f64 = 1e-9;
 
 /// Which condition fails, and where.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -110,6 +110,18 @@ pub fn check_admissibility(trench: &impl Trench, range: f64) -> Result<Admissibl
 /// Proves x phi(x) > 0 by bounds on intervals that are halved, from [`NEAREST`] of the range on: from where it is proved, or the
 /// place nearest to 0 where it fails (to 1e-8 m).
 fn prove(trench: &impl Trench, range: f64) -> Result<Option<f64>, Inadmissible> {
+    let away = |side: f64, slopes: Interval| if side > 0.0 { slopes.low } else { -slopes.high };
+    let proved = first_unproved(|low, high| trench.slope_bounds(low, high), away, range);
+    proved.map_err(|x| Inadmissible::Traps { x, slope: trench.slope(x) })
+}
+
+/// Proves that `least` of what `bounds` says is positive on all intervals on the sides -1 and 1 of 0, from [`NEAREST`] of the range on: from
+/// where that is proved, nothing without bounds, or the place nearest to 0 where it fails (to 1e-8 m).
+pub(super) fn first_unproved(
+    bounds: impl Fn(f64, f64) -> Option<Interval>,
+    least: impl Fn(f64, Interval) -> f64,
+    range: f64,
+) -> Result<Option<f64>, f64> {
     let mut cells = vec![];
     let mut outer = range;
     while outer > NEAREST * range {
@@ -117,16 +129,14 @@ fn prove(trench: &impl Trench, range: f64) -> Result<Option<f64>, Inadmissible> 
         outer *= 0.5;
     }
     while let Some((side, from, to)) = cells.pop() {
-        let Some(slopes) = trench.slope_bounds((side * from).min(side * to), (side * from).max(side * to)) else {
+        let Some(found) = bounds((side * from).min(side * to), (side * from).max(side * to)) else {
             return Ok(None);
         };
-        let least = if side > 0.0 { slopes.low } else { -slopes.high };
-        if least > 0.0 {
+        if least(side, found) > 0.0 {
             continue;
         }
         if to - from < 1e-10 * to {
-            let x = side * libm::round(to * 1e8) * 1e-8;
-            return Err(Inadmissible::Traps { x, slope: trench.slope(x) });
+            return Err(side * libm::round(to * 1e8) * 1e-8);
         }
         let middle = 0.5 * (from + to);
         cells.extend([(side, middle, to), (side, from, middle)]);
