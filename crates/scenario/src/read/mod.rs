@@ -64,7 +64,7 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
                 Kind::Regulation => Task::Regulating(regulating::read(&map)?),
                 Kind::GoalTracking => Task::GoalTracking(goals::read(&map, timing.integration)?),
                 Kind::Directions => Task::Directed(Box::new(chain::directed(&map)?)),
-                Kind::Queue => Task::Queue(Box::new(queue::read(&map)?)),
+                Kind::Queue => Task::Queue(Box::new(queue::read(&map, &timing)?)),
                 _ => chain::nearest(&map, &timing)?,
             };
             (timing, task)
