@@ -36,7 +36,7 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 GoalLaw::Conventional(_) | GoalLaw::Velocity(_) => None,
             });
             laws.flat_map(|(name, law, bounds)| {
-                let (finding, holds) = match law.damping {
+                let (finding, holds) = match &law.damping {
                     AnyDamping::Constant(damping) => {
                         (format!("k = {}: V' = -k |r'|^2", number(damping.coefficient)), damping.coefficient > 0.0)
                     }
@@ -47,6 +47,11 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                         ),
                         damping.alpha > 0.0,
                     ),
+                    AnyDamping::Written(_) | AnyDamping::Table(_) => {
+                        let largest = law.damping.bounds(-RANGE, RANGE).map_or(f64::INFINITY, |bounds| bounds.high);
+                        let largest = number(largest);
+                        (format!("k(d) > 0 but at the goal point (proved), up to {largest}: V' = -k(d) |r'|^2"), true)
+                    }
                 };
                 let damped = Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)");
                 let able = bounds.map(|bounds| {

@@ -299,11 +299,13 @@ impl Simulation {
         Ok(())
     }
 
-    /// What has befallen a queue so far, in time.
+    /// What has befallen a queue, or the links of a chain, so far, in time.
     #[must_use]
     pub fn changes(&self) -> &[QueueChange] {
         match &self.running {
             Running::Queue(team) => team.changes(),
+            Running::Directed(chain) => chain.changes(),
+            Running::Nearest(chain, _) => chain.changes(),
             _ => &[],
         }
     }

@@ -138,6 +138,9 @@ fn potentials() {
     check("7.11.yaml", TRENCH, "{kind: table, slope: [[0, 0], [1, 2], [0.5, 3]]}", &["trench.slope", "row 3"]);
     check("7.11.yaml", TRENCH, "{kind: expression, potential: \"x^2 +\"}", &["trench.potential"]);
     check("7.11.yaml", TRENCH, "{kind: expression, potential: \"2*abs(x) + 3*(1 - cos(x))\"}", &["trench", "trapped"]);
+    // Its kinks, at irrational places, point upward.
+    let irregular = "{kind: expression, potential: \"min(x^2, 4 + abs(x)/10)\"}";
+    check("7.11.yaml", TRENCH, irregular, &["trench", "not regular at x = ", "a kink that points upward"]);
     let range = "{kind: expression, potential: \"x^2\", range: -3}";
     check("7.11.yaml", TRENCH, range, &["trench.range = -3: is not positive; write a number above 0"]);
     let not_even = "{kind: expression, slope: \"1 + x\"}";

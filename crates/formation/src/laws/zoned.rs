@@ -76,14 +76,15 @@ impl Attraction {
 }
 
 impl<T: Trench> ZonedAttraction<T> {
-    /// The acceleration of a follower; `ahead` are the robots before its leader in the chain.
+    /// The acceleration of a follower; `ahead` are the robots before its leader in the chain. Without a leader, where it does not hear it,
+    /// nothing ties the follower to it.
     ///
     /// The derivative of V holds while leader and robots ahead rest, as in A.12.
     pub fn steer(
         &self,
         robot: PointState,
         attraction: Attraction,
-        leader: PointState,
+        leader: impl Into<Option<PointState>>,
         ahead: &[Vector2<f64>],
     ) -> Steered {
         let offset = attraction.point - robot.position;
@@ -94,11 +95,13 @@ impl<T: Trench> ZonedAttraction<T> {
         let mut lyapunov = 0.5 * robot.velocity.norm_squared() + self.trench.value(offset.norm());
         let mut lyapunov_rate =
             force.dot(&attraction.velocity) + delta.dot(&robot.velocity) - self.damping * robot.velocity.norm_squared();
-        let (towards, distance) = direction(leader.position - robot.position);
-        let relative = self.leader_damping * (leader.velocity - robot.velocity);
-        acceleration += self.zoning.force(distance) * towards + relative;
-        lyapunov += self.zoning.value(distance);
-        lyapunov_rate += relative.dot(&robot.velocity);
+        if let Some(leader) = leader.into() {
+            let (towards, distance) = direction(leader.position - robot.position);
+            let relative = self.leader_damping * (leader.velocity - robot.velocity);
+            acceleration += self.zoning.force(distance) * towards + relative;
+            lyapunov += self.zoning.value(distance);
+            lyapunov_rate += relative.dot(&robot.velocity);
+        }
         for other in ahead {
             let (towards, distance) = direction(other - robot.position);
             acceleration += self.zoning.repulsion(distance) * towards;

@@ -1,9 +1,11 @@
 //! One step of a chain's robots, each by itself or several side by side.
 use super::ChainScenario;
 use super::Outcome;
+use super::links::{Links, towards_goal};
 use super::vicinity::Vicinity;
 use crate::Vector2;
 use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surroundings};
+use crate::curve::Placed;
 use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
 use crate::lanes::LANES;
@@ -28,6 +30,7 @@ pub(super) struct View<'a, T> {
     pub(super) seen_deviations: &'a [f64],
     pub(super) seen_places: &'a [Vector2<f64>],
     pub(super) vicinity: &'a Vicinity,
+    pub(super) links: &'a Links,
 }
 
 /// Robots that act one after the other, from the one of index `first` on, and what comes of it.
@@ -104,7 +107,9 @@ impl<T: Trench> View<'_, T> {
             moment,
             leaders: core::array::from_fn(|lane| self.seen[leader(lane)]),
             deviations: core::array::from_fn(|lane| self.seen_deviations[leader(lane)]),
-            alone: core::array::from_fn(|lane| first + lane > 0 && self.vicinity.is_alone(first + lane, cut)),
+            alone: core::array::from_fn(|lane| {
+                first + lane > 0 && self.vicinity.is_alone(first + lane, cut) && self.links.hears(first + lane)
+            }),
         };
         Agent::act_abreast(settings, agents, robots, &side, self.scenario.step)
     }
@@ -136,8 +141,14 @@ impl<T: Trench> View<'_, T> {
     pub(super) fn stand_at<'a>(&'a self, around: &mut Surroundings<'a>, index: usize) {
         let goal = self.scenario.team_goal.filter(|_| index == 0);
         around.goal = goal.map(|goal| around.motion.at(around.map_from_segment.transform_point(&goal.into()).coords));
+        let hears = self.links.hears(index);
+        if let Some((speed, goal)) = self.scenario.options.recovery.zip(self.scenario.team_goal).filter(|_| !hears) {
+            let segment = Placed::new(&self.scenario.segment, around.map_from_segment);
+            around.goal = Some(towards_goal(&segment, &around.motion, self.seen[index].position, (goal, speed)));
+        }
         around.leader = index
             .checked_sub(1)
+            .filter(|_| hears)
             .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] });
         around.clear = self.vicinity.clear(index);
         around.ahead = self.vicinity.ahead(self.seen, index);

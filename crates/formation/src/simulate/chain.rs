@@ -1,9 +1,10 @@
 //! Stepping a chain.
 use super::act::{Part, View};
+use super::links::Links;
 use super::sight::Knowledge;
 use super::vicinity::Vicinity;
 use super::workers::{Alone, Share, Workers};
-use super::{ChainScenario, Outcome, ScenarioError};
+use super::{ChainScenario, Outcome, QueueChange, ScenarioError};
 use crate::Vector2;
 use crate::agent::Agent;
 use crate::hull::{ApparentObstacle, Obstacle};
@@ -36,6 +37,7 @@ pub struct ChainSimulation<T> {
     seen_places: Vec<Vector2<f64>>,
     pub(super) outcomes: Vec<Outcome>,
     vicinity: Vicinity,
+    links: Links,
     workers: Arc<dyn Workers + Send + Sync>,
     pub(super) steps: u64,
 }
@@ -75,11 +77,13 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             seen_places: scenario.robots.iter().map(|robot| robot.position).collect(),
             outcomes: Vec::with_capacity(count),
             vicinity: Vicinity::default(),
+            links: Links::default(),
             workers: Arc::new(Alone),
             steps: 0,
             scenario,
         };
         simulation.look_round()?;
+        simulation.look_for_links();
         simulation.sense()?;
         Ok(simulation)
     }
@@ -107,6 +111,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             seen_deviations: &self.seen_deviations,
             seen_places: &self.seen_places,
             vicinity: &self.vicinity,
+            links: &self.links,
         };
         // Until the next tick nobody sees what the others do, so the order in which they act, and who works at it, is nothing.
         let size = robots.len().div_ceil(self.workers.count().max(1)).max(LEAST_SHARE);
@@ -145,6 +150,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         }
         self.seen.copy_from_slice(&self.robots);
         self.seen_deviations.copy_from_slice(&self.deviations);
+        self.look_for_links();
         if self.scenario.encroaching.tells_places() {
             self.seen_places.copy_from_slice(&self.places);
         }
@@ -165,6 +171,19 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             self.sense()?;
         }
         Ok(())
+    }
+
+    /// Who hears whom until the next tick.
+    fn look_for_links(&mut self) {
+        let (time, radii, options) = (self.time(), self.scenario.zoning.radii(), &self.scenario.options);
+        // Who comes to its leader by itself does so as far as the neutral zone: from rho_bar on zone 5 would draw it at full acceleration.
+        let back = options.recovery.map_or(radii.rho_bar, |_| radii.rho);
+        self.links.look(time, &self.seen, (radii.rho_bar, back), &options.broken);
+    }
+
+    /// What befell the links between robots and their leaders so far, in time.
+    pub fn changes(&self) -> &[QueueChange] {
+        self.links.changes()
     }
 
     /// What robots see of obstacles counts from now on; whether that is more than before.
@@ -193,6 +212,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
             seen_deviations: &self.seen_deviations,
             seen_places: &self.seen_places,
             vicinity: &self.vicinity,
+            links: &self.links,
         };
         let Some((first, others)) = agents.split_first_mut() else { return Ok(()) };
         let mut around = view.around(0);

@@ -13,6 +13,7 @@ mod grid;
 mod hilare_team;
 mod integrate;
 mod judge;
+mod links;
 mod neighbours;
 mod observe;
 mod queue_team;

@@ -1,6 +1,6 @@
 //! What is simulated.
 use super::sight::{Knowledge, MOST_PIECES};
-use super::{Carriage, Integration, Neighbours, Sight};
+use super::{BrokenLink, Carriage, Integration, Neighbours, Sight};
 use crate::Vector2;
 use crate::agent::{AgentSettings, Encroaching, Method, Remedies};
 use crate::curve::Curve;
@@ -63,6 +63,11 @@ pub struct Options {
     pub walls: Vec<Option<u32>>,
     /// Whether the law ends in the safety filter. Without it nothing but the law keeps robots apart, as in the thesis.
     pub safety: Option<Stopping>,
+    /// The speed (m/s) at which a robot that does not hear its leader, farther off than rho_bar or over a broken link, goes to the segment and
+    /// along it towards the team goal, until its leader is in its neutral zone (Remarks 6.2.1 and 8.4.1); without it, or a team goal, such a robot seeks its nearest point alone.
+    pub recovery: Option<f64>,
+    /// Links that break for a time, by the indices of the followers.
+    pub broken: Vec<BrokenLink>,
     /// How far the team sees the boundaries of obstacles, which rest; without it all are known (Remark 7.4.1).
     pub sight: Option<Sight>,
     /// How accelerations, held for a step, become motion. Runge-Kutta would ask robots that remember, and forces that jump,

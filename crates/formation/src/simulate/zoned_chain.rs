@@ -1,6 +1,7 @@
 //! A chain that approaches a straight segment along directions of attraction, under (6.1): the simulation of 6.5.
-use super::Integration;
 use super::integrate::Integrator;
+use super::links::Links;
+use super::{Integration, QueueChange};
 use crate::Vector2;
 use crate::kinematics::PointState;
 use crate::laws::{Attraction, GoalMotion, GoalTracking, Steered, ZonedAttraction};
@@ -29,6 +30,7 @@ pub struct ZonedChain<T> {
     scenario: ZonedChainScenario<T>,
     robots: Vec<PointState>,
     integrator: Integrator,
+    links: Links,
     step: f64,
     steps: u64,
 }
@@ -38,7 +40,9 @@ impl<T: Trench + Clone> ZonedChain<T> {
     pub fn new(scenario: ZonedChainScenario<T>, method: Integration, step: f64) -> Self {
         let robots = scenario.robots.clone();
         let integrator = Integrator::new(method, step, robots.len());
-        Self { scenario, robots, integrator, step, steps: 0 }
+        let mut chain = Self { scenario, robots, integrator, links: Links::default(), step, steps: 0 };
+        chain.look_for_links();
+        chain
     }
 
     /// Advances by one step.
@@ -52,6 +56,18 @@ impl<T: Trench + Clone> ZonedChain<T> {
             }
         });
         self.steps += 1;
+        self.look_for_links();
+    }
+
+    /// Who hears whom is for people alone: the law looks at each stage of a step itself.
+    fn look_for_links(&mut self) {
+        let reach = self.scenario.law.zoning.radii().rho_bar;
+        self.links.look(self.steps as f64 * self.step, &self.robots, (reach, reach), &[]);
+    }
+
+    /// What befell the links between robots and their leaders so far, in time.
+    pub fn changes(&self) -> &[QueueChange] {
+        self.links.changes()
     }
 
     /// What the law says of the robot at `index` (0 is the chain leader) where it is now.
@@ -94,6 +110,8 @@ impl<T: Trench + Clone> ZonedChainScenario<T> {
             };
             return law.steer(robot, GoalMotion::at_rest(self.team_goal));
         };
-        self.law.steer(robot, self.attraction(robot, index), robots[leader], &ahead[..leader])
+        // Beyond rho_bar it does not hear its leader.
+        let hears = (robots[leader].position - robot.position).norm() <= self.law.zoning.radii().rho_bar;
+        self.law.steer(robot, self.attraction(robot, index), hears.then_some(robots[leader]), &ahead[..leader])
     }
 }

@@ -1,6 +1,6 @@
 //! Definition 5.2.1, with what it lacks: x phi(x) > 0, and Lipschitz locally instead of globally (ERRATA).
-use super::Trench;
 use super::steepest::steepest;
+use super::{Interval, Trench};
 
 /// A trench that passed on the range that was looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Admissible {
 }
 
 /// Proofs begin at this share of the range.
-const NEAREST: f64 = 1e-9;
+pub(super) const NEAREST: f64 = 1e-9;
 
 /// Which condition fails, and where.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -110,6 +110,18 @@ pub fn check_admissibility(trench: &impl Trench, range: f64) -> Result<Admissibl
 /// Proves x phi(x) > 0 by bounds on intervals that are halved, from [`NEAREST`] of the range on: from where it is proved, or the
 /// place nearest to 0 where it fails (to 1e-8 m).
 fn prove(trench: &impl Trench, range: f64) -> Result<Option<f64>, Inadmissible> {
+    let away = |side: f64, slopes: Interval| if side > 0.0 { slopes.low } else { -slopes.high };
+    let proved = first_unproved(|low, high| trench.slope_bounds(low, high), away, range);
+    proved.map_err(|x| Inadmissible::Traps { x, slope: trench.slope(x) })
+}
+
+/// Proves that `least` of what `bounds` says is positive on all intervals on the sides -1 and 1 of 0, from [`NEAREST`] of the range on: from
+/// where that is proved, nothing without bounds, or the place nearest to 0 where it fails (to 1e-8 m).
+pub(super) fn first_unproved(
+    bounds: impl Fn(f64, f64) -> Option<Interval>,
+    least: impl Fn(f64, Interval) -> f64,
+    range: f64,
+) -> Result<Option<f64>, f64> {
     let mut cells = vec![];
     let mut outer = range;
     while outer > NEAREST * range {
@@ -117,16 +129,14 @@ fn prove(trench: &impl Trench, range: f64) -> Result<Option<f64>, Inadmissible> 
         outer *= 0.5;
     }
     while let Some((side, from, to)) = cells.pop() {
-        let Some(slopes) = trench.slope_bounds((side * from).min(side * to), (side * from).max(side * to)) else {
+        let Some(found) = bounds((side * from).min(side * to), (side * from).max(side * to)) else {
             return Ok(None);
         };
-        let least = if side > 0.0 { slopes.low } else { -slopes.high };
-        if least > 0.0 {
+        if least(side, found) > 0.0 {
             continue;
         }
         if to - from < 1e-10 * to {
-            let x = side * libm::round(to * 1e8) * 1e-8;
-            return Err(Inadmissible::Traps { x, slope: trench.slope(x) });
+            return Err(side * libm::round(to * 1e8) * 1e-8);
         }
         let middle = 0.5 * (from + to);
         cells.extend([(side, middle, to), (side, from, middle)]);
@@ -201,6 +211,16 @@ mod tests {
         check("abs(x) - 0.001*tanh(100000*(x - 1.2345678))*1.1 - 0.001*tanh(123456.78)*1.1", "at x = 1.2345");
     }
 
+    /// A kink upward at an irrational place, and a slope that has a corner there and falls steeply behind: regular, both.
+    #[test]
+    fn irrational_places_may_be_regular() {
+        assert!(check_admissibility(&written("max(x^2, sqrt(2)*abs(x))"), 10.0).is_ok());
+        let text = "sign(x)*min(1e7*abs(x), max(2*sqrt(2) - 1e7*abs(x), 0.5))";
+        let slope = trench_expression::Expression::parse(text).unwrap();
+        let found = check_admissibility(&Written::new(slope, Meaning::Slope, 10.0).unwrap(), 10.0);
+        assert!(found.is_ok(), "{found:?}");
+    }
+
     /// The constant of a formula is a bound, however narrow the place of the largest slope is.
     #[test]
     fn the_lipschitz_constant_is_a_bound() {
@@ -240,6 +260,14 @@ mod tests {
         let first = SlopeTable::new(vec![(0.0, 0.0), (1.0, 4.0), (1.0, 1.0)]).unwrap();
         let found = check_admissibility(&first, 10.0);
         assert!(matches!(found, Err(Inadmissible::NotRegular { x, .. }) if x.abs() == 1.0), "{found:?}");
+        // The same at irrational places: (1 + sqrt 9.8)/4, and (0.1 + sqrt 16.01)/2.
+        for (text, kink) in
+            [("min(2*x^2, abs(x) + 1.1)", 1.032_623_792_124_926), ("min(x^2, 4 + abs(x)/10)", 2.050_624_902_374_256)]
+        {
+            let found = check_admissibility(&written(text), 10.0);
+            let refused = matches!(found, Err(Inadmissible::NotRegular { x, .. }) if (x.abs() - kink).abs() < 1e-8);
+            assert!(refused, "{text}: {found:?}");
+        }
         let inverted = SlopeTable::new(vec![(0.0, -1.0)]).unwrap();
         assert!(matches!(check_admissibility(&inverted, 1.0), Err(Inadmissible::NotRegular { .. })));
         assert!(matches!(

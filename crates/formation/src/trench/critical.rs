@@ -15,10 +15,23 @@ impl<D: Damping> Trench for CriticallyDamped<D> {
     }
 
     fn slopes(&self, x: f64) -> Slopes {
-        Slopes::smooth(0.25 * self.0.integral(x) * self.0.coefficient(x))
+        let (integral, Slopes { left, right }) = (self.0.integral(x), self.0.coefficients(x));
+        Slopes { left: 0.25 * integral * left, right: 0.25 * integral * right }
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.0.kinks()
     }
 
     fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {
-        if self.0.never_falls() { convex_bounds(self, low, high) } else { None }
+        if self.0.never_falls() {
+            return convex_bounds(self, low, high);
+        }
+        // K never falls, as k is not negative.
+        let (k, integrals) = (self.0.bounds(low, high)?, [self.0.integral(low), self.0.integral(high)]);
+        let products = integrals.map(|integral| [0.25 * integral * k.low, 0.25 * integral * k.high]);
+        let all = products.into_iter().flatten();
+        let hull = |all: Interval, slope: f64| Interval { low: all.low.min(slope), high: all.high.max(slope) };
+        Some(all.fold(Interval { low: f64::INFINITY, high: f64::NEG_INFINITY }, hull))
     }
 }

@@ -1,4 +1,5 @@
 //! Damping functions k(x) of Lienard's equation (11), x'' + k(x) x' + phi(x) = 0.
+use super::{Interval, Slopes, TableDamping, WrittenDamping};
 
 /// k and its integral from 0.
 pub trait Damping {
@@ -8,9 +9,50 @@ pub trait Damping {
     /// K(x), the integral of k from 0 to x, m/s; odd for even k.
     fn integral(&self, x: f64) -> f64;
 
+    /// k(x-) and k(x+), which differ where k jumps, 1/s.
+    fn coefficients(&self, x: f64) -> Slopes {
+        Slopes::smooth(self.coefficient(x))
+    }
+
+    /// Where k may jump or has a corner, in rising order, m.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// An interval with all k between `low` and `high`, if the damping can tell.
+    fn bounds(&self, _low: f64, _high: f64) -> Option<Interval> {
+        None
+    }
+
     /// Whether k never falls with |x|. Then K k / 4 does not either, and the trench of Corollary A.9.1 is convex.
     fn never_falls(&self) -> bool {
         false
+    }
+}
+
+impl<D: Damping + ?Sized> Damping for &D {
+    fn coefficient(&self, x: f64) -> f64 {
+        (**self).coefficient(x)
+    }
+
+    fn integral(&self, x: f64) -> f64 {
+        (**self).integral(x)
+    }
+
+    fn coefficients(&self, x: f64) -> Slopes {
+        (**self).coefficients(x)
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        (**self).kinks()
+    }
+
+    fn bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        (**self).bounds(low, high)
+    }
+
+    fn never_falls(&self) -> bool {
+        (**self).never_falls()
     }
 }
 
@@ -78,7 +120,7 @@ impl Damping for SaturatedDamping {
 }
 
 /// A damping that is chosen while the program runs: by a parameter or a scenario file.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum AnyDamping {
     /// Example A.9.1.
     Constant(ConstantDamping),
@@ -86,6 +128,10 @@ pub enum AnyDamping {
     Hyperbolic(HyperbolicDamping),
     /// Example A.9.3.
     Saturated(SaturatedDamping),
+    /// A formula.
+    Written(WrittenDamping),
+    /// A table.
+    Table(TableDamping),
 }
 
 impl AnyDamping {
@@ -94,6 +140,8 @@ impl AnyDamping {
             Self::Constant(damping) => damping,
             Self::Hyperbolic(damping) => damping,
             Self::Saturated(damping) => damping,
+            Self::Written(damping) => damping,
+            Self::Table(damping) => damping,
         }
     }
 }
@@ -105,6 +153,18 @@ impl Damping for AnyDamping {
 
     fn integral(&self, x: f64) -> f64 {
         self.chosen().integral(x)
+    }
+
+    fn coefficients(&self, x: f64) -> Slopes {
+        self.chosen().coefficients(x)
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.chosen().kinks()
+    }
+
+    fn bounds(&self, low: f64, high: f64) -> Option<Interval> {
+        self.chosen().bounds(low, high)
     }
 
     fn never_falls(&self) -> bool {

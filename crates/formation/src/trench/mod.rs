@@ -13,6 +13,7 @@ mod square_root;
 mod steepest;
 mod table;
 mod written;
+mod written_damping;
 
 pub use admissibility::{Admissible, Inadmissible, check_admissibility};
 pub use any::AnyTrench;
@@ -26,6 +27,7 @@ pub use square_root::SquareRoot;
 pub use table::{SlopeTable, TableError};
 pub use trench_expression::Interval;
 pub use written::{Meaning, Written, WrittenError};
+pub use written_damping::{DampingError, TableDamping, WrittenDamping};
 
 /// The limits of a derivative from the left and from the right; equal except at kinks.
 #[derive(Debug, Clone, Copy, PartialEq)]

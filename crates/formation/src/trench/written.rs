@@ -102,6 +102,21 @@ impl Written {
         series.0[usize::from(self.meaning == Meaning::Potential)]
     }
 
+    /// The slopes before and behind a kink: at the ends of the stretch that it lies in. A fall between them that a steadily falling slope
+    /// makes over this stretch, too, is none at a place.
+    fn across(&self, kink: &Rough) -> Slopes {
+        let (left, right) = (self.one_sided(kink.low, true), self.one_sided(kink.high, false));
+        let order = 1 + usize::from(self.meaning == Meaning::Potential);
+        let before = self.function.series_from_left::<3>(kink.low).derivative(order);
+        let behind = self.function.series::<f64, 3>(kink.high).derivative(order);
+        let steady = (kink.high - kink.low) * before.abs().max(behind.abs()) * 2.0;
+        if left > right && left - right <= steady {
+            Slopes::smooth(0.5 * (left + right))
+        } else {
+            Slopes { left, right }
+        }
+    }
+
     /// Phi at the ends of stretches over which the quadrature is exact but for rounding.
     fn integrate(&self) -> Vec<(f64, f64)> {
         let mut ends: Vec<f64> = self.kinks.iter().map(|kink| 0.5 * (kink.low + kink.high)).collect();
@@ -161,15 +176,16 @@ impl Trench for Written {
         }
         let index = self.kinks.partition_point(|kink| kink.high < x);
         match self.kinks.get(index) {
-            Some(kink) if kink.low <= x => {
-                Slopes { left: self.one_sided(kink.low, true), right: self.one_sided(kink.high, false) }
-            }
+            Some(kink) if kink.low <= x => self.across(kink),
             _ => Slopes::smooth(self.one_sided(x, false)),
         }
     }
 
+    /// Places within the stretches where kinks are known to be, so that [`Self::slopes`] tells both sides of each; round numbers where
+    /// one lies within.
     fn kinks(&self) -> Vec<f64> {
-        self.kinks.iter().map(Rough::x).collect()
+        let within = |kink: &Rough| Some(kink.x()).filter(|x| (kink.low..=kink.high).contains(x));
+        self.kinks.iter().map(|kink| within(kink).unwrap_or(0.5 * (kink.low + kink.high))).collect()
     }
 
     fn slope_bounds(&self, low: f64, high: f64) -> Option<Interval> {

@@ -3,6 +3,7 @@
 use super::common::{
     body, edge, limits, not_negative, point, point_or_zero, points, positive, sharpness, some, trench, zoning,
 };
+use super::queue::broken_links;
 use super::ranks::ranked;
 use crate::scenario::{Directed, Task, Timing};
 use trench_config::ConfigError;
@@ -20,10 +21,13 @@ use trench_formation::simulate::{
     Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, Sight, ZonedChainScenario,
 };
 use trench_formation::trench::AnyTrench;
-use trench_formation::zoning::ObstaclePotential;
+use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness};
+
+/// What robots that remember, or are bounded, have besides: the controllers' core simulates them.
+const BESIDES: [&str; 6] = ["remedies", "sidesteps", "limits", "safety", "recovery", "broken_links"];
 
 /// 6.5.
-pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
+pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigError> {
     let node = map.node("segment")?;
     let (shape, curve) = trench_plan::segment(node)?;
     let CurveShape::Line(from, to) = shape else {
@@ -34,7 +38,8 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
     let nodes = some(map, "robots")?;
     let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
     let team_goal = point(map.node("team_goal")?)?;
-    let (nodes, robots) = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
+    let ranked = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
+    let (nodes, robots) = (&ranked.0, ranked.1.clone());
     let (tangent, domain) = ((to - from).normalize(), curve.domain());
     let direction = map.opt_f64("direction")?;
     let across = Vector2::new(-tangent.y, tangent.x);
@@ -70,7 +75,57 @@ pub(super) fn directed(map: &Map<'_>) -> Result<Directed, ConfigError> {
             return Err(node.error(problem, "lengthen the segment or choose another direction (6.3)"));
         }
     }
-    Ok(Directed { chain, segment: shape })
+    if BESIDES.iter().all(|key| map.opt_node(key).is_none()) {
+        return Ok(Task::Directed(Box::new(Directed { chain, segment: shape })));
+    }
+    let method = Method::Directed { direction: direction.map(unit), compensates: chain.law.compensates };
+    let ZonedAttraction { trench, zoning, damping, leader_damping, .. } = chain.law;
+    let law = NearestAttraction { trench, damping, leader_damping };
+    // Carrots are led by a quarter of zone 2, and there are no obstacles.
+    let (radii, full) = (zoning.radii(), zoning.full_acceleration());
+    let lead = 0.25 * (radii.rho_hat - radii.rho_underbar);
+    let potential = ObstaclePotential::new(0.0, lead, 1.0, Sharpness::Two, Edge::Continuous, full);
+    let scenario = ChainScenario {
+        segment: curve,
+        carriage: Carriage::parked(),
+        team_goal: Some(team_goal),
+        robots: chain.robots,
+        law,
+        zoning,
+        obstacles: Vec::new(),
+        clearance: 0.0,
+        potential: potential.map_err(|error| map.error("zoning", error.to_string(), "mend the radii"))?,
+        seeking: SEEKING,
+        encroaching: Encroaching::Nothing,
+        remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
+        options: Options { method: Some(method), ..options(map, timing, ranked.0.len())? },
+        step: timing.step,
+        steps_per_tick: 1,
+    };
+    buildable(map, nodes, &scenario)?;
+    Ok(Task::Nearest(Box::new(scenario), shape))
+}
+
+/// What chains may have besides, whatever draws them.
+fn options(map: &Map<'_>, timing: &Timing, count: usize) -> Result<Options, ConfigError> {
+    let limits = limits(map)?;
+    let recovery = map.opt_map("recovery")?.map(|recovery| {
+        let speed = positive(&recovery, "speed")?;
+        recovery.finish()?;
+        match map.opt_node("team_goal") {
+            Some(_) => Ok(speed),
+            None => Err(map.error("recovery", "has no team goal to go to (Remark 6.2.1)", "give team_goal")),
+        }
+    });
+    Ok(Options {
+        limits,
+        safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
+        sidesteps: map.get_or("sidesteps", false)?,
+        recovery: recovery.transpose()?,
+        broken: broken_links(map, count)?,
+        integration: timing.integration,
+        ..Options::default()
+    })
 }
 
 /// Chapter 7.
@@ -82,7 +137,7 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
     let team_goal = map.opt_node("team_goal").map(point).transpose()?;
     let (nodes, robots) = ranked(map, nodes, robots, team_goal, &Placed::new(&curve, carriage.at(0.0).0))?;
     let listed = listed(map.opt_list("obstacles")?)?;
-    let limits = limits(map)?;
+    let options = options(map, timing, robots.len())?;
     let scenario = ChainScenario {
         segment: curve,
         carriage,
@@ -98,13 +153,10 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
         options: Options {
             method: map.opt_map("directed")?.map(|map| along_directions(&map)).transpose()?,
-            limits,
-            safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
-            sidesteps: map.get_or("sidesteps", false)?,
             obstacle_velocities: listed.velocities,
             walls: listed.walls,
             sight: map.opt_map("sight")?.map(|map| sight(&map)).transpose()?,
-            integration: timing.integration,
+            ..options
         },
         step: timing.step,
         steps_per_tick: map.get_or("steps_per_tick", 1)?,
@@ -235,14 +287,17 @@ fn potential(map: &Map<'_>) -> Result<ObstaclePotential, ConfigError> {
     Ok(made)
 }
 
+/// How robots seek where the file says nothing of it.
+const SEEKING: SeekSettings = SeekSettings {
+    room: 0.0,
+    transit_margin: 1e-3,
+    settled_distance: 0.05,
+    settled_speed: 0.05,
+    leader_rule: LeaderRule::StepSix,
+};
+
 fn seeking(map: &Map<'_>) -> Result<SeekSettings, ConfigError> {
-    let standard = SeekSettings {
-        room: 0.0,
-        transit_margin: 1e-3,
-        settled_distance: 0.05,
-        settled_speed: 0.05,
-        leader_rule: LeaderRule::StepSix,
-    };
+    let standard = SEEKING;
     let Some(map) = map.opt_map("seeking")? else { return Ok(standard) };
     let rules = [("step_six", LeaderRule::StepSix), ("whole_segment_while_far", LeaderRule::WholeSegmentWhileFar)];
     let settings = SeekSettings {

@@ -6,7 +6,7 @@ use trench_formation::Vector2;
 use trench_formation::laws::Capability;
 use trench_formation::trench::{
     AnyDamping, AnyTrench, Conic, ConstantDamping, CriticallyDamped, Hyperbolic, HyperbolicDamping, Meaning, Quadratic,
-    Saturated, SaturatedDamping, SlopeTable, SquareRoot, Written, check_admissibility,
+    Saturated, SaturatedDamping, SlopeTable, SquareRoot, TableDamping, Written, WrittenDamping, check_admissibility,
 };
 use trench_formation::zoning::{Edge, Radii, RadiiError, Sharpness, Zoning};
 
@@ -80,12 +80,24 @@ pub(super) fn some<'a>(map: &Map<'a>, key: &str) -> Result<&'a [Node], ConfigErr
 /// A damping function k(d) of A.9: from it follows the trench that it damps critically.
 pub(super) fn damping(map: &Map<'_>, key: &str) -> Result<AnyDamping, ConfigError> {
     let map = map.map(key)?;
-    let kind = map.one_of("kind", &[("constant", 0), ("hyperbolic", 1), ("saturated", 2)])?;
+    let kinds = [("constant", 0), ("hyperbolic", 1), ("saturated", 2), ("expression", 3), ("table", 4)];
+    let kind = map.one_of("kind", &kinds)?;
     let hyperbolic =
         || Ok::<_, ConfigError>(HyperbolicDamping { alpha: positive(&map, "alpha")?, a: positive(&map, "a")? });
     let damping = match kind {
         0 => AnyDamping::Constant(ConstantDamping { coefficient: positive(&map, "coefficient")? }),
         1 => AnyDamping::Hyperbolic(hyperbolic()?),
+        3 => {
+            let range = if map.opt_node("range").is_some() { positive(&map, "range")? } else { RANGE };
+            let written = WrittenDamping::new(trench_plan::expression(map.node("coefficient")?)?, range);
+            let remedy = "write another formula of k in x, like 1 + 2*abs(x)";
+            AnyDamping::Written(written.map_err(|error| map.error("coefficient", error.to_string(), remedy))?)
+        }
+        4 => {
+            let rows: Vec<[f64; 2]> = map.get("coefficient")?;
+            let table = TableDamping::new(rows.into_iter().map(|[x, k]| (x, k)).collect());
+            AnyDamping::Table(table.map_err(|error| map.error("coefficient", error.to_string(), "rows are [x, k]"))?)
+        }
         _ => AnyDamping::Saturated(SaturatedDamping(hyperbolic()?)),
     };
     map.finish()?;

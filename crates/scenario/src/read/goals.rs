@@ -166,7 +166,7 @@ fn bounds(map: &Map<'_>, robots: &[PointState]) -> Result<Option<Bounds>, Config
 /// k, a number or a function of the distance; that which the trench is made of where it is critically damped and the law names none.
 fn damping_with(law: &Map<'_>, trench: &AnyTrench) -> Result<AnyDamping, ConfigError> {
     match (law.opt_node("damping"), trench) {
-        (None, AnyTrench::Critical(trench)) => Ok(trench.0),
+        (None, AnyTrench::Critical(trench)) => Ok(trench.0.clone()),
         (Some(node), _) if node.map().is_ok() => damping(law, "damping"),
         _ => Ok(AnyDamping::Constant(ConstantDamping { coefficient: positive(law, "damping")? })),
     }

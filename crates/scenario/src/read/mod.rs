@@ -63,8 +63,8 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
             let task = match kind {
                 Kind::Regulation => Task::Regulating(regulating::read(&map)?),
                 Kind::GoalTracking => Task::GoalTracking(goals::read(&map, timing.integration)?),
-                Kind::Directions => Task::Directed(Box::new(chain::directed(&map)?)),
-                Kind::Queue => Task::Queue(Box::new(queue::read(&map)?)),
+                Kind::Directions => chain::directed(&map, &timing)?,
+                Kind::Queue => Task::Queue(Box::new(queue::read(&map, &timing)?)),
                 _ => chain::nearest(&map, &timing)?,
             };
             (timing, task)

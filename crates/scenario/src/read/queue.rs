@@ -1,28 +1,33 @@
 //! `kind: queue`: the linear laws of chapter 8, and what befalls a queue.
 
-use super::common::{point, point_or_zero, positive, some};
-use crate::scenario::Queue;
+use super::common::{body, limits, point, point_or_zero, positive, some};
+use crate::scenario::{Queue, Timing};
 use trench_config::yaml::{Map, Node};
 use trench_config::{ConfigError, did_you_mean};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::QueueFollowing;
-use trench_formation::simulate::{BrokenLink, QueueRobotScenario, QueueScenario, Quitting, Recovery};
+use trench_formation::safety::Stopping;
+use trench_formation::simulate::{BrokenLink, Integration, QueueRobotScenario, QueueScenario, Quitting, Recovery};
 
-pub(super) fn read(map: &Map<'_>) -> Result<Queue, ConfigError> {
+pub(super) fn read(map: &Map<'_>, timing: &Timing) -> Result<Queue, ConfigError> {
     let (shape, segment) = trench_plan::segment(map.node("segment")?)?;
     let robots: Vec<QueueRobotScenario> = some(map, "robots")?.iter().map(robot).collect::<Result<_, _>>()?;
     if robots.iter().all(|robot| robot.joins.is_some()) {
         return Err(map.error("robots", "all join later: there is no queue", "have one be there from the beginning"));
     }
+    let limits = limits(map)?;
     let queue = QueueScenario {
         target: point(map.node("target")?)?,
         spacing: positive(map, "spacing")?,
         law: law(&map.map("law")?)?,
-        broken: map.opt_list("broken_links")?.iter().map(|node| broken(node, &robots)).collect::<Result<_, _>>()?,
+        broken: broken_links(map, robots.len())?,
         recovery: map.opt_map("recovery")?.map(|map| recovery(&map)).transpose()?,
+        limits,
+        safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
         segment,
         robots,
     };
+    checked(map, timing, &queue)?;
     let (first, needed) = (queue.first_place(), queue.spacing * (queue.robots.len() - 1) as f64);
     let before = if queue.segment.is_closed() { queue.segment.length() } else { first - queue.segment.domain().0 };
     if needed > before {
@@ -80,9 +85,45 @@ fn time(map: &Map<'_>, key: &str) -> Result<Option<f64>, ConfigError> {
     map.opt_node(key).map(|_| positive(map, key)).transpose()
 }
 
-fn broken(node: &Node, robots: &[QueueRobotScenario]) -> Result<BrokenLink, ConfigError> {
+/// Whether links can hold the queue together, and limits and bodies can be.
+fn checked(map: &Map<'_>, timing: &Timing, queue: &QueueScenario) -> Result<(), ConfigError> {
+    if queue.recovery.is_some_and(|recovery| recovery.range < queue.spacing) {
+        let problem = "has links that reach less far than `spacing`: robots in their places are lost to one another";
+        return Err(map.error("recovery", problem, "give a longer range, or space them more closely"));
+    }
+    match (timing.integration, queue.limits, queue.safety) {
+        (Integration::RungeKutta, Some(_), _) => {
+            let problem = "does not suit limits, which hold accelerations for a step";
+            return Err(map.error("method", problem, "write semi_implicit_euler"));
+        }
+        (Integration::Exact, _, Some(_)) => {
+            let problem = "does not suit the safety filter, whose room is that of semi-implicit steps";
+            return Err(map.error("method", problem, "write semi_implicit_euler"));
+        }
+        _ => {}
+    }
+    let Some(Stopping { radius, .. }) = queue.safety else { return Ok(()) };
+    for (index, robot) in queue.robots.iter().enumerate() {
+        for (other, mate) in queue.robots[..index].iter().enumerate() {
+            let distance = (mate.start.position - robot.start.position).norm();
+            if distance < 2.0 * radius {
+                let problem =
+                    format!("have r{} and r{} start {distance} m apart: bodies overlap", other + 1, index + 1);
+                return Err(map.error("robots", problem, "move one of them"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Links that break for a time, of `count` robots.
+pub(super) fn broken_links(map: &Map<'_>, count: usize) -> Result<Vec<BrokenLink>, ConfigError> {
+    map.opt_list("broken_links")?.iter().map(|node| broken(node, count)).collect()
+}
+
+fn broken(node: &Node, count: usize) -> Result<BrokenLink, ConfigError> {
     let map = node.map()?;
-    let names: Vec<String> = (1..=robots.len()).map(|rank| format!("r{rank}")).collect();
+    let names: Vec<String> = (1..=count).map(|rank| format!("r{rank}")).collect();
     let name = map.str("robot")?;
     let Some(robot) = names.iter().position(|known| known == name) else {
         let remedy = did_you_mean(name, names.iter().map(String::as_str));

@@ -4,6 +4,7 @@
 mod bounds;
 mod fragments;
 mod hilare;
+mod links;
 mod open;
 mod queue;
 mod ranks;

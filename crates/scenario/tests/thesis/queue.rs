@@ -1,6 +1,6 @@
 //! Chapter 8: the linear queue laws, A.22, Remarks 8.4.1 and 6.2.1.
 
-use super::{refusal, run_scenario, run_with, scenario, text};
+use super::{refusal, run_scenario, run_with, scenario, scenario_with, text};
 use trench_formation::Vector2;
 use trench_formation::stability::{Coupling, QueueRobot, cascade_bounds};
 use trench_scenario::{CaseSummary, Queue, Sample, Task, parse};
@@ -220,4 +220,62 @@ fn robots_that_have_lost_their_team_come_to_it() {
         .map(|(robot, slot)| (Vector2::from(robot.position) - place(&task, slot)).norm())
         .collect();
     assert!(ends.iter().all(|off| *off < 0.01), "{ends:?}");
+}
+
+/// Remark 6.2.1 for groups, and while the run goes on: r4 and r5 reach each other alone, r3 is thrown out of reach; all come back, slowly, as bodies
+/// that do not touch.
+#[test]
+fn groups_that_have_lost_their_team_come_to_it() {
+    let name = "6.2.1_lost_group.yaml";
+    let (task, (summary, kept)) = (queue(name), run_with(name, &times(60)));
+    let found = changes(&summary.cases[0]);
+    let told: Vec<_> = found.iter().map(|(_, robot, change, rank)| (*robot, *change, *rank)).collect();
+    let lost = [("r4", "lost", None), ("r5", "lost", None), ("r3", "lost", None)];
+    let joins = [("r3", "joins", Some(3)), ("r4", "joins", Some(4)), ("r5", "joins", Some(5))];
+    assert_eq!(told, [lost, joins].concat());
+    assert!(found[1].0 == 0.0 && (0.1..1.0).contains(&found[2].0), "{found:?}");
+    let limits = task.queue.limits.unwrap();
+    for samples in kept.iter().skip(40) {
+        assert!(samples.iter().all(|sample| sample.velocity.norm() <= limits.speed + 1e-9), "{samples:?}");
+    }
+    for (sample, slot) in kept.last().unwrap().iter().zip(0..) {
+        assert!((sample.position - place(&task, slot)).norm() < 1e-3, "{sample:?}");
+    }
+    assert!(summary.cases[0].closest_pair.unwrap() > 0.7, "{:?}", summary.cases[0].closest_pair);
+}
+
+/// The safety filter keeps the bodies of a queue apart where the linear laws do not: a robot that joins at the first place drives through others.
+#[test]
+fn bodies_of_a_queue_do_not_touch() {
+    let bodies = "limits: {speed: 2.0, acceleration: 4.0}\nsafety: {body_radius: 0.4, margin: 0.05}\nspacing:";
+    let crossing = [
+        ("method: rk4", "method: semi_implicit_euler"),
+        (
+            "- {position: [38.0, 1.0]}\n- {position: [35.0, 4.0]}",
+            "- {position: [35.0, 2.5]}\n- {position: [38.0, 3.0]}",
+        ),
+    ];
+    let closest = |changes: &[(&str, &str)]| {
+        let (summary, _) = run_scenario(&scenario_with("6.2.1_recovery.yaml", changes), &[]);
+        (summary.cases[0].closest_pair.unwrap(), summary.cases[0].conforms_after)
+    };
+    let (bare, _) = closest(&crossing);
+    let (kept, conforms) = closest(&[crossing[0], crossing[1], ("spacing:", bodies)]);
+    assert!(bare < 0.8 && kept >= 0.9 - 1e-6, "{bare} {kept}");
+    assert!(conforms.is_some(), "they still come to their places");
+}
+
+#[test]
+fn bodies_and_links_that_suit_no_queue() {
+    let name = "6.2.1_lost_group.yaml";
+    for (old, new, expected) in [
+        ("spacing: 4.0", "spacing: 12.0", "links that reach less far than `spacing`"),
+        ("semi_implicit_euler", "rk4", "does not suit limits"),
+        ("semi_implicit_euler", "exact", "does not suit the safety filter"),
+        ("[-4.0, 1.0]", "[-0.5, 1.0]", "bodies overlap"),
+        ("limits: {speed: 3.0, acceleration: 3.0}", "# ", "give limits, too"),
+    ] {
+        let error = refusal(name, old, new);
+        assert!(error.contains(expected) && error.contains(name), "{error}");
+    }
 }

@@ -1,6 +1,6 @@
 //! A.9: trenches that are made of their damping.
 
-use super::{assert_near, refusal, run_with, scenario};
+use super::{assert_near, refusal, run_scenario, run_with, scenario, scenario_with};
 use trench_formation::Vector2;
 use trench_formation::trench::{Damping, Trench};
 use trench_scenario::{GoalLaw, Task};
@@ -63,6 +63,30 @@ fn damping_in_and_potential_out() {
     }
 }
 
+/// A damping that is written down, as a formula or a table, is as good as a built-in one, in the law and in its trench; and one that no example
+/// of A.9 is, does not overshoot either.
+#[test]
+fn written_dampings_are_damped_critically_too() {
+    let built_in = "{kind: trench, trench: {kind: critical, damping: {kind: hyperbolic, alpha: 2.0, a: 0.5}}}";
+    let written = |damping: &str| format!("{{kind: trench, trench: {{kind: critical, damping: {damping}}}}}");
+    let run = |law: &str| {
+        let times: Vec<f64> = (0..=400).map(|index| 0.1 * f64::from(index)).collect();
+        run_scenario(&scenario_with(FILE, &[(built_in, law)]), &times).1
+    };
+    let along = |samples: &Vec<trench_scenario::Sample>| samples[2].position.x - samples[2].goal.unwrap().x;
+    let formula = run(&written("{kind: expression, coefficient: \"2*abs(x)/sqrt(x^2 + 0.25)\"}"));
+    for (samples, expected) in formula.iter().zip(run(built_in)) {
+        assert!((along(samples) - along(&expected)).abs() < 1e-9);
+    }
+    for damping in
+        ["{kind: expression, coefficient: \"1 + exp(-x^2)\"}", "{kind: table, coefficient: [[0, 0.5], [1, 2], [3, 1]]}"]
+    {
+        let way: Vec<f64> = run(&written(damping)).iter().map(along).collect();
+        assert!(way[0] == 2.0 && way.iter().all(|x| *x > -1e-9), "{damping}: {way:?}");
+        assert!(way[way.len() - 1] < 0.2, "{damping}: {way:?}");
+    }
+}
+
 #[test]
 fn dampings_that_are_none_are_refused() {
     let check = |old: &str, new: &str, expected: &[&str]| {
@@ -77,5 +101,11 @@ fn dampings_that_are_none_are_refused() {
     );
     check(constant, "damping: {kind: linear, coefficient: 2.0}}}", &["kind", "linear"]);
     check(constant, "damping: {kind: constant}}}", &["coefficient"]);
+    let written = |coefficient: &str| format!("damping: {{kind: expression, coefficient: \"{coefficient}\"}}}}}}");
+    check(constant, &written("x"), &["damping.coefficient", "must be positive but at 0 (Corollary A.9.1)"]);
+    check(constant, &written("1/abs(x)"), &["damping.coefficient", "is not finite at x = 0"]);
+    check(constant, &written("2 + sign(sqrt(2) - abs(x))"), &["trench", "a kink that points upward"]);
+    let table = "damping: {kind: table, coefficient: [[0, 1], [2, 0]]}}}";
+    check(constant, table, &["damping.coefficient", "the damping is 0 1/s at x = 2"]);
     check("{kind: critical, damping: {kind: constant, coefficient: 2.0}}", "{kind: conic, alpha: 2.0}", &["damping"]);
 }

@@ -1,5 +1,5 @@
-//! A queue under the linear laws (8.7) and (8.11), while robots quit and join (A.22), links break (Remark 8.4.1) and robots that reach
-//! nobody come to it (Remark 6.2.1).
+//! A queue under the linear laws (8.7) and (8.11), while robots quit and join (A.22), links break (Remark 8.4.1) and robots out of its reach
+//! come to it (Remark 6.2.1).
 mod order;
 mod scenario;
 
@@ -60,17 +60,17 @@ impl QueueTeam {
             step,
             steps: 0,
         };
-        team.look_for_lost();
         team.change();
         team
     }
 
     /// Advances by one step.
     pub fn step(&mut self) {
-        let Self { scenario, duties, first, .. } = self;
+        let Self { scenario, duties, first, step, .. } = self;
         self.integrator.advance(&mut self.robots, 0.0, |_, robots, rates| {
-            for ((robot, duty), rate) in robots.iter().zip(&*duties).zip(rates) {
-                *rate = scenario.acceleration(robots, *robot, *duty, *first);
+            for (index, ((robot, duty), rate)) in robots.iter().zip(&*duties).zip(rates).enumerate() {
+                let wanted = scenario.acceleration(robots, *robot, *duty, *first);
+                *rate = scenario.admitted(robots, index, wanted, *step);
             }
         });
         self.steps += 1;
@@ -80,6 +80,7 @@ impl QueueTeam {
     /// What happens at this time: who quits and joins, which links are broken, and what everybody does from now on.
     fn change(&mut self) {
         let time = self.time();
+        self.look_for_lost();
         // Half a step, so that rounding does not put an event off.
         let is_due = |at: f64| at <= time + 0.5 * self.step;
         let mut happened = Vec::new();
@@ -124,21 +125,32 @@ impl QueueTeam {
         self.changes.extend(happened.into_iter().map(|(robot, event)| QueueChange { time, robot, event }));
     }
 
-    /// Who reaches nobody at the start is not of the queue.
+    /// Who does not reach the first robot, be it over others of the queue, is not of it.
     fn look_for_lost(&mut self) {
-        if self.scenario.recovery.is_none() {
+        let Some(Recovery { range, .. }) = self.scenario.recovery else { return };
+        let mut unreached = self.queue();
+        if unreached.is_empty() {
             return;
         }
-        let members: Vec<usize> = self.order.members().map(|(index, _)| index).collect();
-        let lost: Vec<usize> = members.into_iter().filter(|index| !self.reaches_somebody(*index)).collect();
-        for index in lost {
+        let mut reached = vec![unreached.remove(0)];
+        while let Some(from) = reached.pop() {
+            let near = |other: usize| (self.robots[other].position - self.robots[from].position).norm() <= range;
+            unreached.retain(|other| {
+                let is_near = near(*other);
+                if is_near {
+                    reached.push(*other);
+                }
+                !is_near
+            });
+        }
+        for index in unreached {
             self.order.remove(index, true);
             self.duties[index] = Duty::Lost;
-            self.changes.push(QueueChange { time: 0.0, robot: index, event: QueueEvent::Lost });
+            self.changes.push(QueueChange { time: self.time(), robot: index, event: QueueEvent::Lost });
         }
     }
 
-    /// Whether a robot reaches one of the queue.
+    /// Whether a robot reaches one of the queue, all of which reach the first.
     fn reaches_somebody(&self, index: usize) -> bool {
         let Some(Recovery { range, .. }) = self.scenario.recovery else { return false };
         let near = |other: usize| (self.robots[other].position - self.robots[index].position).norm() <= range;

@@ -2,7 +2,8 @@
 use crate::Vector2;
 use crate::curve::Curve;
 use crate::kinematics::PointState;
-use crate::laws::QueueFollowing;
+use crate::laws::{Capability, QueueFollowing};
+use crate::safety::{Line, Stopping};
 
 /// A queue of chapter 8, and what befalls it.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,29 @@ pub struct QueueScenario {
     pub broken: Vec<BrokenLink>,
     /// How robots out of reach come to the queue; without it nobody is.
     pub recovery: Option<Recovery>,
+    /// What robots can do; without it whatever the law asks for.
+    pub limits: Option<Capability>,
+    /// Whether the law ends in the safety filter: robots are bodies that do not touch. With it, as with limits, accelerations are held for a step.
+    pub safety: Option<Stopping>,
+}
+
+impl QueueScenario {
+    /// What limits and safety filter leave of the acceleration that the law of the robot of an index asks for, for a step of `step` (s).
+    pub(super) fn admitted(
+        &self,
+        robots: &[PointState],
+        index: usize,
+        wanted: Vector2<f64>,
+        step: f64,
+    ) -> Vector2<f64> {
+        let robot = robots[index];
+        let wanted = self.limits.map_or(wanted, |limits| limits.admit(robot.velocity, wanted, step));
+        let Some(safety) = &self.safety else { return wanted };
+        let others = robots.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
+        let near = others.filter(|other| (other.position - robot.position).norm() < safety.range(step));
+        let lines: Vec<Line> = near.map(|other| safety.between(robot, *other)).collect();
+        safety.admit(robot, wanted, &lines, core::iter::empty(), step)
+    }
 }
 
 /// A robot of a queue, or one that comes to it.
@@ -56,7 +80,15 @@ pub struct BrokenLink {
     pub to: f64,
 }
 
-/// Remark 6.2.1: a robot that reaches nobody goes to the segment and along it towards the team goal until it reaches somebody.
+impl BrokenLink {
+    /// Whether it is broken at `time` (s).
+    pub(in crate::simulate) fn holds(&self, time: f64) -> bool {
+        self.from <= time && time < self.to
+    }
+}
+
+/// Remark 6.2.1: a robot that does not reach the first of the queue, be it over others, goes to the segment and along it towards the team goal
+/// until it reaches one that does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recovery {
     /// How far links reach, m.
@@ -83,9 +115,10 @@ pub enum QueueEvent {
     Joins(usize),
     /// It quits.
     Quits,
-    /// It reaches nobody (Remark 6.2.1).
+    /// The queue is out of its reach (Remark 6.2.1); in a chain, its leader.
     Lost,
-    /// Its link is broken: it goes to its place, which is that of the queue's target less those ahead (Remark 8.4.1).
+    /// Its link is broken: it goes to its place, which is that of the queue's target less those ahead (Remark 8.4.1), in a chain towards the team
+    /// goal.
     Retargets,
     /// Its link is whole again, or somebody is ahead of it now: it follows the robot ahead.
     Follows,

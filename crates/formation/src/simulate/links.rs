@@ -1,0 +1,105 @@
+//! Which robots of a chain hear their leaders, and where those go that do not (Remarks 6.2.1 and 8.4.1).
+use super::{BrokenLink, QueueChange, QueueEvent};
+use crate::Vector2;
+use crate::curve::Placed;
+use crate::kinematics::PointState;
+use crate::laws::{GoalMotion, RigidMotion};
+
+/// Nearer to the team goal than this, along the segment, a robot on its way there slows down, m.
+const SLOWING: f64 = 0.5;
+
+/// Which followers do not hear their leaders now, and what befell links so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Links {
+    /// Indices, in order: mostly none.
+    unheard: Vec<usize>,
+    now: Vec<usize>,
+    changes: Vec<QueueChange>,
+}
+
+impl Links {
+    /// Looks at the links at `time` (s): they reach `reach` (m), and some are `broken` for a time. Who has lost its leader follows it again
+    /// from `back` (m) on.
+    pub(super) fn look(&mut self, time: f64, robots: &[PointState], (reach, back): (f64, f64), broken: &[BrokenLink]) {
+        let is_broken = |index: usize| broken.iter().any(|link| link.robot == index && link.holds(time));
+        let far =
+            |pair: &[PointState], reach: f64| (pair[0].position - pair[1].position).norm_squared() > reach * reach;
+        self.now.clear();
+        for (pair, index) in robots.windows(2).zip(1..) {
+            if far(pair, if self.hears(index) { reach } else { back }) || (!broken.is_empty() && is_broken(index)) {
+                self.now.push(index);
+            }
+        }
+        if self.now == self.unheard {
+            return;
+        }
+        let new = self.now.iter().filter(|index| !self.unheard.contains(index));
+        let lost = new.map(|&robot| {
+            let event = if far(&robots[robot - 1..=robot], reach) { QueueEvent::Lost } else { QueueEvent::Retargets };
+            QueueChange { time, robot, event }
+        });
+        let whole = self.unheard.iter().filter(|index| !self.now.contains(index));
+        let whole = whole.map(|&robot| QueueChange { time, robot, event: QueueEvent::Follows });
+        self.changes.extend(lost.chain(whole));
+        core::mem::swap(&mut self.now, &mut self.unheard);
+    }
+
+    /// Whether the robot of an index hears its leader; the first has none to hear.
+    #[inline]
+    pub(super) fn hears(&self, index: usize) -> bool {
+        self.unheard.is_empty() || self.unheard.binary_search(&index).is_err()
+    }
+
+    /// What befell links, in time.
+    pub(super) fn changes(&self) -> &[QueueChange] {
+        &self.changes
+    }
+}
+
+/// The goal point of a robot at `robot` (m) that goes to the segment and along it to `goal` (m, frame of the segment), at `speed` (m/s): where
+/// it is nearest to the segment, moving on.
+pub(super) fn towards_goal(
+    segment: &Placed<'_>,
+    motion: &RigidMotion,
+    robot: Vector2<f64>,
+    (goal, speed): (Vector2<f64>, f64),
+) -> GoalMotion {
+    let (foot, curve) = (segment.nearest(robot), segment.curve());
+    let mut left = curve.nearest(goal).arc_length - foot.arc_length;
+    if curve.is_closed() {
+        left -= curve.length() * libm::round(left / curve.length());
+    }
+    let still = motion.at(foot.point);
+    GoalMotion { velocity: still.velocity + speed * (left / SLOWING).clamp(-1.0, 1.0) * foot.tangent, ..still }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: f64) -> PointState {
+        PointState::at_rest(Vector2::new(x, 0.0))
+    }
+
+    #[test]
+    fn links_end_beyond_their_reach_and_break_for_a_time() {
+        let (mut links, broken) = (Links::default(), [BrokenLink { robot: 1, from: 2.0, to: 3.0 }]);
+        let mut look = |time: f64, last: f64| {
+            links.look(time, &[at(0.0), at(-5.0), at(last)], (6.0, 5.5), &broken);
+            [0, 1, 2].map(|index| links.hears(index))
+        };
+        assert_eq!(look(0.0, -11.0), [true, true, true]);
+        assert_eq!(look(1.0, -11.1), [true, true, false]);
+        assert_eq!(look(2.0, -12.0), [true, false, false]);
+        assert_eq!(look(3.0, -11.0), [true, true, false]);
+        assert_eq!(look(4.0, -10.5), [true, true, true]);
+        let told: Vec<_> = links.changes().iter().map(|change| (change.time, change.robot, change.event)).collect();
+        let expected = [
+            (1.0, 2, QueueEvent::Lost),
+            (2.0, 1, QueueEvent::Retargets),
+            (3.0, 1, QueueEvent::Follows),
+            (4.0, 2, QueueEvent::Follows),
+        ];
+        assert_eq!(told, expected);
+    }
+}
