@@ -23,6 +23,7 @@ mod team;
 mod transits;
 mod verdict;
 mod vertices;
+mod walls;
 mod zones;
 
 pub use chain::{ChainOfRobots, chain};

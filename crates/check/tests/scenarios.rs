@@ -234,3 +234,35 @@ fn transits_are_told() {
     let corner = transits("7.13_open.yaml", line, corner);
     assert!(corner.note && corner.finding.contains("from the corner at 40 m on"), "{corner:?}");
 }
+
+/// Walls hold only against a trench that pulls less than they push (chapter 7 of docs/theory, "Bounded actuators").
+#[test]
+fn walls_are_stronger_than_the_trench() {
+    let walls = |name: &str, old: &str, new: &str| {
+        judged(name, old, new).into_iter().find(|verdict| verdict.check == "walls").unwrap()
+    };
+    // A robot was drawn through the middle of this obstacle, and every other verdict held.
+    let weak = walls(
+        "7.11.yaml",
+        "strength: 10.0, m: 2, edge: jump}",
+        "strength: 10.0, m: 2, edge: jump, full_acceleration: 5.0}",
+    );
+    assert!(!weak.holds && weak.finding.contains("obstacles push back with 5"), "{weak:?}");
+    assert!(weak.finding.contains("make obstacle_potential.full_acceleration more than 10"), "{weak:?}");
+    // One robot has nobody ahead: its zones are not asked for.
+    let alone = walls("7.11.yaml", "", "");
+    assert!(alone.holds && !alone.note && !alone.finding.contains("zones"), "{alone:?}");
+    for name in ["6.5_bounded.yaml", "6.5.yaml"] {
+        let full = if name == "6.5.yaml" { "full_acceleration: 1.0e+4" } else { "full_acceleration: 1.0 " };
+        let weak = walls(name, full, "full_acceleration: 0.5 ");
+        assert!(!weak.holds && weak.finding.contains("make zoning.full_acceleration more than"), "{weak:?}");
+    }
+    // As strong as the limit that the trench never reaches: held at rest. What comes at full speed is another matter.
+    let bounded = walls("6.5_bounded.yaml", "", "");
+    assert!(bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (its speed at the start)"), "{bounded:?}");
+    // Along a direction that is nearly the segment's the trench pulls with Phi'/sin alpha.
+    let oblique = walls("6.5_bounded.yaml", "compensates: true}", "compensates: true, direction: 0.9}");
+    assert!(!oblique.holds && oblique.finding.contains("pulls with up to 8.7"), "{oblique:?}");
+    // Printed walls are deep enough for what comes at them.
+    assert!(["6.5.yaml", "7.10_obstacles.yaml"].iter().all(|name| !walls(name, "", "").note));
+}

@@ -95,7 +95,12 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
         writeln!(formatter, "  closest pair {closest:.4} m, {:.3} s in zone 1", case.in_zone_1)?;
     }
     for obstacle in &case.obstacles {
-        writeln!(formatter, "  obstacle {}: no robot nearer than {:.4} m", obstacle.id, obstacle.least_gap)?;
+        let (id, gap) = (obstacle.id, obstacle.least_gap);
+        if gap < 0.0 {
+            writeln!(formatter, "  obstacle {id}: a robot was inside the obstacle, {:.4} m from its edge", -gap)?;
+        } else {
+            writeln!(formatter, "  obstacle {id}: no robot nearer than {gap:.4} m")?;
+        }
     }
     for ChangeSummary { time, robot, change, rank } in &case.changes {
         let rank = rank.map_or(String::new(), |rank| format!(" as rank {rank}"));
