@@ -2,6 +2,7 @@
 //!
 //! Shares become numbers of places ([`robots_per_queue`]); robots get places at the least sum of squared distances, kept
 //! while nothing is clearly better ([`assign_to_queues`], [`reassign`]); the optimum carries its proof ([`Optimum`]).
+mod cheapest;
 mod hysteresis;
 mod search;
 mod shares;

@@ -2,10 +2,10 @@
 use super::CostMatrix;
 use super::solve::FREE;
 
+/// Columns that are treated alike at a time.
+pub(super) const LANES: usize = 4;
 /// Columns whose least distance is kept together.
 const BLOCK: usize = 64;
-/// Columns that are treated alike at a time.
-const LANES: usize = 4;
 
 /// Memory of searches, used again from one to the next.
 pub(super) struct Search {

@@ -2,6 +2,7 @@
 //! Transactions on Aerospace and Electronic Systems 52(4), 2016) behind the row reductions of R. Jonker and A. Volgenant ("A
 //! shortest augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987), which place most
 //! rows. Own code because the dual variables that certify the optimum are wanted, and no crate returns them.
+use super::cheapest::{Cheapest, cheapest, next_at};
 use super::search::Search;
 use super::{AssignmentError, CostMatrix};
 
@@ -80,10 +81,8 @@ impl<'a> Solver<'a> {
     }
 
     fn solve(mut self) -> Optimum {
-        let mut waiting = self.reduce_rows();
-        for _ in 0..1 {
-            waiting = self.augment_rows(waiting);
-        }
+        let waiting = self.reduce_rows();
+        let waiting = self.augment_rows(waiting);
         let mut search = Search::new(self.costs.columns());
         for row in waiting {
             let end = search.shortest_path(self.costs, row, (&self.u, &self.v), &self.row_of);
@@ -123,13 +122,12 @@ impl<'a> Solver<'a> {
         let (mut waiting, mut moves) = (Vec::new(), 0);
         for mut row in rows {
             loop {
-                let cheapest = self.cheapest(row);
-                let Cheapest { first, second, mut column, other } = cheapest;
+                let Cheapest { first, second, mut column } = self.cheapest(row);
                 let falls = first < second && second.is_finite();
                 if falls {
                     self.v[column] -= second - first;
-                } else if self.row_of[column] != FREE && other != FREE && first == second {
-                    column = other;
+                } else if self.row_of[column] != FREE && first == second {
+                    column = next_at(self.costs.row(row), &self.v, column + 1, first).unwrap_or(column);
                 }
                 self.u[row] = if falls { second } else { first };
                 let evicted = self.row_of[column];
@@ -163,30 +161,8 @@ impl<'a> Solver<'a> {
     }
 
     fn cheapest(&self, row: usize) -> Cheapest {
-        let mut found = Cheapest { first: f64::INFINITY, second: f64::INFINITY, column: 0, other: FREE };
-        for (column, (cost, v)) in self.costs.row(row).iter().zip(&self.v).enumerate() {
-            let reduced = cost - v;
-            if reduced < found.second {
-                if reduced < found.first {
-                    found = Cheapest { first: reduced, second: found.first, column, other: found.column };
-                } else {
-                    (found.second, found.other) = (reduced, column);
-                }
-            }
-        }
-        if found.second == f64::INFINITY {
-            found.other = FREE;
-        }
-        found
+        cheapest(self.costs.row(row), &self.v)
     }
-}
-
-/// The least and second least reduced cost of a row, and their columns.
-struct Cheapest {
-    first: f64,
-    second: f64,
-    column: usize,
-    other: usize,
 }
 
 impl Optimum {
