@@ -259,7 +259,10 @@ fn walls_are_stronger_than_the_trench() {
     }
     // As strong as the limit that the trench never reaches: held at rest. What comes at full speed is another matter.
     let bounded = walls("6.5_bounded.yaml", "", "");
-    assert!(bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (its speed at the start)"), "{bounded:?}");
+    assert!(
+        bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (its speed at the start)"),
+        "{bounded:?}"
+    );
     // Along a direction that is nearly the segment's the trench pulls with Phi'/sin alpha.
     let oblique = walls("6.5_bounded.yaml", "compensates: true}", "compensates: true, direction: 0.9}");
     assert!(!oblique.holds && oblique.finding.contains("pulls with up to 8.7"), "{oblique:?}");

@@ -47,8 +47,7 @@ impl Report {
         let stay = if self.lasts { "lasts" } else { "passes" };
         let pid = self.pid.map_or(String::new(), |pid| pid.to_string());
         let text: String = self.text.chars().take(LONGEST_TEXT).collect();
-        let fields =
-            [&self.name, &self.label, severity, stay, &self.starts.to_string(), &pid, &text].map(|field| plain(field));
+        let fields = [&self.name, &self.label, severity, stay, &self.starts.to_string(), &pid, &text].map(plain);
         format!("{}\n", fields.join("\t"))
     }
 
