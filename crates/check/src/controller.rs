@@ -100,7 +100,8 @@ fn walls_of(
     let pull = check_admissibility(trench, reach).map_or(f64::INFINITY, |found| found.lipschitz_constant);
     // Zones and obstacles that make no potential are for other verdicts, and for the node.
     let key = "zones.full_acceleration";
-    let mut all: Vec<Wall> = potential_of_obstacles(parameters)?.iter().map(|potential| Wall::obstacles(potential, key, 0.0)).collect();
+    let mut all: Vec<Wall> =
+        potential_of_obstacles(parameters)?.iter().map(|potential| Wall::obstacles(potential, key, 0.0)).collect();
     if matches!(law, "zoned" | "chain") {
         all.extend(zoning(parameters)?.map(|zoning| Wall::zones(&zoning, key)));
     }

@@ -4,8 +4,7 @@ use crate::Verdict;
 use crate::verdict::number;
 use trench_formation::zoning::{ObstaclePotential, Zoning};
 
-const EQUATION: &str =
-    "full acceleration > Phi'/sin alpha, and v^2/2 + w Phi'/sin alpha <= Psi at the pole (9.2, chapter 7 of docs/theory)";
+const EQUATION: &str = "full acceleration > Phi'/sin alpha, and v^2/2 + w Phi'/sin alpha <= Psi at the pole (9.2, chapter 7 of docs/theory)";
 
 /// A wall in front of a pole.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +70,8 @@ pub(crate) fn walls(subject: &str, coming: &Coming, walls: &[Wall]) -> Option<Ve
     let pull = coming.pull;
     let weak: Vec<&Wall> = walls.iter().filter(|wall| wall.force <= pull).collect();
     if !weak.is_empty() {
-        let told: Vec<String> = weak.iter().map(|wall| format!("{} push back with {}", wall.name, number(wall.force))).collect();
+        let told: Vec<String> =
+            weak.iter().map(|wall| format!("{} push back with {}", wall.name, number(wall.force))).collect();
         let keys: Vec<&str> = weak.iter().map(|wall| wall.key).collect();
         let finding = format!(
             "the trench pulls with up to {} m/s^2, {}: robots are drawn through them; make {} more than {}, or the trench less steep",
@@ -83,7 +83,8 @@ pub(crate) fn walls(subject: &str, coming: &Coming, walls: &[Wall]) -> Option<Ve
         return Some(Verdict::new("walls", subject, false, finding, EQUATION));
     }
     let told: Vec<String> = walls.iter().map(|wall| format!("{} {}", wall.name, number(wall.force))).collect();
-    let stronger = format!("{} m/s^2 at most, the trench less: robots that stand before them are held", told.join(", "));
+    let stronger =
+        format!("{} m/s^2 at most, the trench less: robots that stand before them are held", told.join(", "));
     let thin: Vec<String> = walls.iter().filter_map(|wall| passed(wall, coming)).collect();
     Some(if thin.is_empty() {
         let (speed, because) = (number(coming.speed), coming.because);
