@@ -100,6 +100,17 @@ fn check_figures(file: &Path, folder: &Path) {
     }
 }
 
+/// Where a shortened scenario ends, s.
+const END: f64 = 4.0;
+
+/// A line of a scenario file whose figures are drawn at no time after [`END`].
+fn drawn_before_the_end(line: &str) -> String {
+    let Some((before, rest)) = line.split_once("at: [") else { return line.to_owned() };
+    let (times, behind) = rest.split_once(']').unwrap();
+    let times: Vec<f64> = times.split(',').map(|time| time.trim().parse::<f64>().unwrap().min(END)).collect();
+    format!("{before}at: {times:?}{behind}")
+}
+
 /// A copy of a scenario that ends after a few steps, where its figures do not need more.
 fn shortened(file: &Path, folder: &Path) -> PathBuf {
     let text = fs::read_to_string(file).unwrap();
@@ -111,9 +122,9 @@ fn shortened(file: &Path, folder: &Path) -> PathBuf {
         .map(|line| match line.strip_prefix("duration:") {
             Some(rest) => {
                 let whole: f64 = rest.split('#').next().unwrap().trim().parse().unwrap();
-                format!("duration: {:?}", whole.min(4.0))
+                format!("duration: {:?}", whole.min(END))
             }
-            None => line.to_owned(),
+            None => drawn_before_the_end(line),
         })
         .collect();
     let copy = folder.join(file.file_name().unwrap());

@@ -66,7 +66,8 @@ fn infeasible_teams_are_said_to_be() {
         let text = std::fs::read_to_string(root.join(name)).unwrap();
         assert_eq!(text.matches(old).count(), 1, "{old} must stand once in {name}");
         let file = folder.path().join(name);
-        std::fs::write(&file, text.replace(old, new).replace("duration: 200.0", "duration: 1.0")).unwrap();
+        let text = text.replace(old, new).replace("duration: 200.0", "duration: 1.0");
+        std::fs::write(&file, text.replace("5.0, 20.0, 35.0, 60.0, 200.0]", "1.0]")).unwrap();
         let output = trench(&["sim", file.to_str().unwrap(), "--quiet", "--json"]);
         let told = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && told.contains(expected), "{told}");
@@ -77,8 +78,8 @@ fn infeasible_teams_are_said_to_be() {
     check("6.5.yaml", "{position: [26.0026, 29.7094]", away, "connection", "connection: r2 begins");
     check(
         "7.10.yaml",
-        "[100.0, 100.0]]",
-        "[5.0, 5.0]]",
+        "[100.0, 100.0]]}\nteam_goal: [100.0, 100.0]",
+        "[5.0, 5.0]]}\nteam_goal: [5.0, 5.0]",
         "room",
         "4 places, 4 m from each other, but there are 10 robots",
     );
@@ -95,6 +96,106 @@ fn mistakes_are_told_with_their_line() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(told.contains("wrong.yaml:4: step = -1.0: is not positive; write a number above 0"), "{told}");
+}
+
+/// A shipped scenario, changed, run: its summary as people are told it and as programs are, and standard error.
+fn changed(name: &str, changes: &[(&str, &str)]) -> (String, serde_json::Value, String) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/scenarios");
+    let mut text = std::fs::read_to_string(root.join(name)).unwrap();
+    for (old, new) in changes {
+        assert_eq!(text.matches(old).count(), 1, "{old} must stand once in {name}");
+        text = text.replace(old, new);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(name);
+    std::fs::write(&file, text).unwrap();
+    let told = trench(&["sim", file.to_str().unwrap(), "--quiet"]);
+    let json = trench(&["sim", file.to_str().unwrap(), "--quiet", "--json"]);
+    assert!(told.status.success() && json.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+    let json = serde_json::from_slice(&json.stdout).unwrap();
+    (String::from_utf8(told.stdout).unwrap(), json, String::from_utf8(told.stderr).unwrap())
+}
+
+/// A wall that the trench outdoes: the robot goes through, and that is said as it is.
+#[test]
+fn who_was_inside_an_obstacle_is_told_so() {
+    let weak = ("strength: 10.0, m: 2, edge: jump}", "strength: 10.0, m: 2, edge: jump, full_acceleration: 5.0}");
+    let (told, ..) = changed("7.11.yaml", &[weak]);
+    assert!(told.contains("obstacle 1: a robot was inside the obstacle, 1.0000 m from its edge"), "{told}");
+}
+
+/// A robot that an obstacle has left nowhere to go: said before the run, in the summary, and since when.
+#[test]
+fn who_has_no_fragment_is_told_so() {
+    let obstacle = (
+        "- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]]}",
+        "- {polygon: [[-30.0, -15.0], [30.0, -15.0], [30.0, -12.0], [-30.0, -12.0]], velocity: [0.0, 0.2]}",
+    );
+    let (told, json, error) = changed("7.11.yaml", &[obstacle]);
+    assert!(
+        error.contains("room: obstacles that move leave no qualified fragment from 55.00 s on to the end"),
+        "{error}"
+    );
+    assert!(told.contains("r1 has been drawn nowhere since 55.0"), "{told}");
+    let since = json["cases"][0]["robots"][0]["no_fragment_since"].as_f64().unwrap();
+    assert!((since - 55.0).abs() < 0.01, "{since}");
+    assert_eq!(json["infeasible"][0]["check"], "room");
+}
+
+/// Leaders are in neutral zones, or it is said who is not, and why not.
+#[test]
+fn leaders_are_in_neutral_zones_or_it_is_said_why_not() {
+    let (told, json, _) = changed("7.10.yaml", &[]);
+    assert!(told.contains("leaders in neutral zones for good after ") && told.contains("V of the laws: "), "{told}");
+    assert_eq!(json["cases"][0]["outside_neutral"], serde_json::json!([]));
+    let (told, json, _) = changed("6.5_bounded.yaml", &[]);
+    assert!(!told.contains("leaders in neutral zones for good"), "{told}");
+    let outside = json["cases"][0]["outside_neutral"].as_array().unwrap();
+    assert!(!outside.is_empty() && json["cases"][0]["neutral_after"].is_null());
+    for one in outside {
+        assert_eq!(one["zone"], 4, "{one}");
+        assert!(one["why"].as_str().unwrap().contains("edge of the neutral zone from outside"), "{one}");
+    }
+    let (robot, leader) = (outside[0]["robot"].as_str().unwrap(), outside[0]["leader"].as_str().unwrap());
+    assert!(told.contains(&format!("  {leader} is in zone 4 of {robot}, 10.0")), "{told}");
+}
+
+/// Options that would do nothing for a scenario are refused, each with the reason.
+#[test]
+fn options_of_launch_files_are_refused() {
+    let file = "config/scenarios/7.12.yaml";
+    for (given, part) in [
+        (&["foo:=bar"][..], "foo:=bar would do nothing; leave it out: arguments are those of launch files"),
+        (&["--journal", "none"], "--journal would do nothing; leave it out: journals are those of nodes"),
+        (&["--seconds", "1"], "--seconds would do nothing; leave it out: the file says its `duration`"),
+        (&["--seed", "7"], "--seed would do nothing; leave it out: nothing in it is random"),
+    ] {
+        let output = trench(&[&["sim", file], given].concat());
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(
+            told.contains("config/scenarios/7.12.yaml: is a scenario without a launch file") && told.contains(part),
+            "{told}"
+        );
+    }
+}
+
+/// Numbers that overflow while a scenario runs are told with its file.
+#[test]
+fn numbers_that_overflow_are_told_with_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/scenarios/6.5.yaml");
+    let text = std::fs::read_to_string(root).unwrap();
+    let file = folder.path().join("large.yaml");
+    std::fs::write(
+        &file,
+        text.replace("step: 0.01 ", "step: 10.0 ").replace("record_every: 0.1 ", "record_every: 10.0 "),
+    )
+    .unwrap();
+    let output = trench(&["sim", file.to_str().unwrap(), "--quiet"]);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("large.yaml: at ") && told.contains("is no longer finite: make the step smaller"), "{told}");
 }
 
 /// 300 robots in three rows, for a few steps.

@@ -51,12 +51,12 @@ pub(crate) struct Arguments {
     /// Arguments of the launch file.
     #[arg(value_name = "NAME:=VALUE", value_parser = name_and_value)]
     arguments: Vec<(String, String)>,
-    /// Simulated seconds after which the run is given up.
-    #[arg(long, default_value_t = LONGEST)]
-    seconds: f64,
-    /// Seed of what must differ between runs of a node.
-    #[arg(long, default_value_t = SEED)]
-    seed: u64,
+    /// Simulated seconds after which the run of a launch file is given up; 600 where nothing is said.
+    #[arg(long)]
+    seconds: Option<f64>,
+    /// Seed of what must differ between runs of a node; 1 where nothing is said.
+    #[arg(long)]
+    seed: Option<u64>,
     /// Records all messages into a bag in this folder, which must not exist.
     #[arg(long, value_name = "FOLDER")]
     bag: Option<PathBuf>,
@@ -93,6 +93,10 @@ pub(in crate::command) enum SimError {
     Bag(#[from] BagError),
     #[error(transparent)]
     Run(#[from] RunError),
+    #[error("{path}: {error}", path = path.display())]
+    RunOf { path: PathBuf, error: RunError },
+    #[error("{path}: is a scenario without a launch file, for which {ignored} would do nothing; leave it out: {remedy}", path = path.display())]
+    Ignored { path: PathBuf, ignored: String, remedy: &'static str },
     #[error("{0} exists already; give the journals another folder or remove it")]
     JournalsExist(String),
     #[error("{path}: {error}", path = path.display())]
@@ -100,6 +104,14 @@ pub(in crate::command) enum SimError {
 }
 
 impl SimError {
+    /// The error about a run, told with the file that it is of.
+    pub(in crate::command) fn of_run(self, path: &Path) -> Self {
+        match self {
+            Self::Run(error) => Self::RunOf { path: path.to_owned(), error },
+            other => other,
+        }
+    }
+
     /// The error about a launch file, told where the scenario names it.
     fn of_scenario(self, launch: &trench_scenario::Launch) -> Self {
         match self {
@@ -130,16 +142,30 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
         let driven = drive(&Arguments { file, arguments: all, ..arguments.clone() }, Some(&text));
         return driven.map_err(|error| error.of_scenario(&launch));
     }
+    refuse_ignored(arguments)?;
     let bag = arguments.bag.as_deref();
     let manner = scenario::Manner { bag, progress: !arguments.quiet, threads: arguments.threads.get() };
     let infeasible = trench_check::infeasible(&arguments.file.display().to_string(), &scenario);
     for verdict in &infeasible {
         eprintln!("{}: {}: {} ({})", arguments.file.display(), verdict.check, verdict.finding, verdict.equation);
     }
-    let done = scenario::run(&scenario, &text, manner)?;
+    let done = scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(&arguments.file))?;
     write_csv(arguments, &done.run)?;
     scenario::tell(&done.summary, &infeasible, arguments.json);
     Ok(0)
+}
+
+/// What is said on the command line is done, or refused: a scenario has neither nodes, nor arguments, and says itself how long it takes.
+fn refuse_ignored(arguments: &Arguments) -> Result<(), SimError> {
+    let argument = arguments.arguments.first().map(|(name, value)| format!("{name}:={value}"));
+    let given = [
+        (argument, "arguments are those of launch files"),
+        (arguments.journal.as_ref().map(|_| "--journal".to_owned()), "journals are those of nodes"),
+        (arguments.seconds.map(|_| "--seconds".to_owned()), "the file says its `duration`"),
+        (arguments.seed.map(|_| "--seed".to_owned()), "nothing in it is random"),
+    ];
+    let ignored = given.into_iter().find_map(|(ignored, remedy)| Some((ignored?, remedy)));
+    ignored.map_or(Ok(()), |(ignored, remedy)| Err(SimError::Ignored { path: arguments.file.clone(), ignored, remedy }))
 }
 
 /// A scenario file with its text; nothing for launch files, whose own reader says what is wrong with them.
@@ -181,7 +207,7 @@ fn drive(arguments: &Arguments, scenario: Option<&str>) -> Result<u8, SimError> 
     }
     let folder = arguments.journal.clone();
     let journals = folder.map(|folder| Journals { folder, images: arguments.journal_images, pace: Pace::LockStep });
-    let loaded = load_journalled(&plan, &Disk, arguments.seed, journals.as_ref())?;
+    let loaded = load_journalled(&plan, &Disk, arguments.seed.unwrap_or(SEED), journals.as_ref())?;
     for label in &loaded.left_out {
         eprintln!("trench sim: {label} is no node of ours and is left out");
     }
@@ -193,7 +219,7 @@ fn drive(arguments: &Arguments, scenario: Option<&str>) -> Result<u8, SimError> 
         let text = trench_msgs::std_msgs::String { data: text.to_owned() };
         watch.sink.publish(lockstep.times().ros.0, "/scenario", Qos::LATCHED, &text);
     }
-    let ending = lockstep.run(arguments.seconds, &mut watch);
+    let ending = lockstep.run(arguments.seconds.unwrap_or(LONGEST), &mut watch);
     watch.progress.clear();
     let (took, simulated) = (began.elapsed().as_secs_f64(), lockstep.times().steady.seconds_since(from));
     let run = watch.sink.finish()?;

@@ -44,9 +44,11 @@ pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
     };
     let asked = libm::hypot(chain.gains.0, chain.gains.1) * bounds.iter().copied().fold(0.0, f64::max);
     let beyond = chain.acceleration.filter(|able| asked > *able);
-    let (last, loose) = (bounds.last().copied().unwrap_or(0.0), recursive.last().copied().unwrap_or(0.0));
     let (rest, holds) = (bounds.len(), longest >= chain.robots);
-    let verb = if longest >= rest { "stays within" } else { "may leave" };
+    // Who leaves is the first rank beyond: those behind may have smaller bounds.
+    let (rank, verb) = if longest >= rest { (rest, "stays within") } else { (longest + 1, "may leave") };
+    let of = |bounds: &[f64]| rank.checked_sub(1).and_then(|index| bounds.get(index)).copied().unwrap_or(0.0);
+    let (bound, loose) = (of(&bounds), of(&recursive));
     let mended = if holds {
         format!(", as {}{longest} robots in one chain would", if longest < computed { "up to " } else { "" })
     } else if longest >= rest {
@@ -57,12 +59,12 @@ pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
     let ranks: Vec<String> = bounds.iter().take(TOLD).map(|bound| number(*bound)).collect();
     let more = if rest > TOLD { ", ..." } else { "" };
     let finding = format!(
-        "the linear queue law (8.11) with {} and errors of {}{} at the start: rank {rest} {verb} {} ({}; by (8.26) {}){mended}; by rank {}{more}{}{}",
+        "the linear queue law (8.11) with {} and errors of {}{} at the start: rank {rank} {verb} {} ({}; by (8.26) {}){mended}; by rank {}{more}{}{}",
         gains(chain),
         number(chain.initial_error),
         first(chain),
         number(chain.tolerance),
-        number(last),
+        number(bound),
         if loose < 1e6 { number(loose) } else { format!("{loose:.0e}") },
         ranks.join(", "),
         another_law(chain),

@@ -1,8 +1,10 @@
 //! A scenario file: gains, potentials, zones, directions of attraction, room, chains.
 
 use crate::controller::chain_damping;
+use crate::goal::goal;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
+use crate::passing::room_on_the_way;
 use crate::potential::potential;
 use crate::room::room;
 use crate::transits::transits;
@@ -12,7 +14,7 @@ use crate::zones::zones;
 use crate::{Approach, ChainOfRobots, Verdict, chain, direction, gains};
 use trench_formation::Vector2;
 use trench_formation::agent::Method;
-use trench_formation::curve::{Curve, Placed};
+use trench_formation::curve::Placed;
 use trench_formation::hull::Outline;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
@@ -65,7 +67,7 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
             .collect()
         }
         Task::Directed(task) => directed(subject, task),
-        Task::Nearest(task, _) => nearest(subject, task),
+        Task::Nearest(task, _) => nearest(subject, task, scenario.timing.duration),
         Task::Queue(task) => queue(subject, task),
         Task::Launch(_) => Vec::new(),
     }
@@ -129,17 +131,15 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let pull = steepest(&chain.law.trench) / least_turn(chain);
     let coming = coming(pull, chain.law.damping, &chain.robots, Vector2::zeros(), None);
     verdicts.extend(walls(subject, &coming, &[Wall::zones(&chain.law.zoning, ZONES)]));
-    if let Ok(curve) = Curve::new(&task.segment, false, false) {
-        let robots = chain.robots.iter().zip(chain.directions.iter().copied());
-        verdicts.extend(directions(subject, &Placed::new(&curve, Default::default()), robots, chain.law.damping));
-    }
+    let robots = chain.robots.iter().zip(chain.directions.iter().copied());
+    verdicts.extend(directions(subject, &Placed::new(&task.curve, Default::default()), robots, chain.law.damping));
     verdicts.extend(feasibility_of_directed(subject, task));
     let damping = chain.law.damping + chain.law.leader_damping;
     verdicts.extend(growth_at_rest(subject, "(6.1)", (&chain.law.trench, damping), &radii, chain.robots.len()));
     verdicts
 }
 
-fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
+fn nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
     let radii = *task.zoning.radii();
     let body = body_radius(task);
     let mut verdicts = vec![
@@ -161,7 +161,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
         let robots = task.robots.iter().map(|robot| (robot, frame.rotation * towards));
         verdicts.extend(directions(subject, &Placed::new(&task.segment, frame), robots, task.law.damping));
     }
-    verdicts.extend(feasibility_of_nearest(subject, task));
+    verdicts.extend(feasibility_of_nearest(subject, task, duration));
     verdicts.push(transits(subject, &Placed::new(&task.segment, task.carriage.at(0.0).0), &task.robots));
     let damping = task.law.damping + task.law.leader_damping;
     verdicts.extend(growth_at_rest(subject, "(7.13)", (&task.law.trench, damping), &radii, task.robots.len()));
@@ -182,12 +182,12 @@ fn directions<'a>(
     robots.enumerate().skip(1).map(of).collect()
 }
 
-/// What a team cannot do from where it begins: somebody is out of reach of its leader, or the segment has too few places. Nothing else is
-/// looked at.
+/// What a team cannot do from where it begins: somebody is out of reach of its leader, the segment has too few places, or its team goal is out of
+/// reach of all of it. Nothing else is looked at.
 pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     let mut verdicts = match &scenario.task {
         Task::Directed(task) => feasibility_of_directed(subject, task),
-        Task::Nearest(task, _) => feasibility_of_nearest(subject, task),
+        Task::Nearest(task, _) => feasibility_of_nearest(subject, task, scenario.timing.duration),
         Task::Regulating(_) | Task::GoalTracking(_) | Task::Queue(_) | Task::Launch(_) => Vec::new(),
     };
     verdicts.retain(|verdict| !verdict.holds);
@@ -196,12 +196,12 @@ pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
 
 fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
-    let curve = Curve::new(&task.segment, false, false).ok();
-    let room = curve.map(|curve| room(subject, &curve, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
-    room.into_iter().chain([connection(subject, radii, robots)]).collect()
+    let room = room(subject, &task.curve, &[task.curve.domain()], robots.len(), radii.rho_hat);
+    let goal = goal(subject, &task.curve, task.chain.team_goal, radii, robots.len());
+    [room, connection(subject, radii, robots)].into_iter().chain(goal).collect()
 }
 
-fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
+fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
     let (radii, whole) = (task.zoning.radii(), task.segment.domain());
     let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
     let hulls = task.combined(&task.obstacles).ok();
@@ -210,7 +210,9 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
         room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
     });
-    room.into_iter().chain([connection(subject, radii, &task.robots)]).collect()
+    let later = room_on_the_way(subject, task, duration);
+    let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));
+    room.into_iter().chain(later).chain([connection(subject, radii, &task.robots)]).chain(goal).collect()
 }
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.

@@ -10,6 +10,9 @@ fn judged(name: &str, old: &str, new: &str) -> Vec<Verdict> {
     scenario(name, &trench_scenario::parse(name, &text.replace(old, new)).unwrap())
 }
 
+/// How the segment of 7.10 ends, and where r1 goes.
+const LINE: &str = "[100.0, 100.0]]}\nteam_goal: [100.0, 100.0]";
+
 /// What fails of a scenario: the check and a part of what was found.
 fn check(name: &str, old: &str, new: &str, expected: &[(&str, &str)]) {
     let verdicts = judged(name, old, new);
@@ -173,8 +176,8 @@ fn guidelines_of_4_3_2_are_told() {
 fn chains_that_do_not_fit() {
     check(
         "7.10.yaml",
-        "[100.0, 100.0]]",
-        "[5.0, 5.0]]",
+        LINE,
+        "[5.0, 5.0]]}\nteam_goal: [5.0, 5.0]",
         &[("room", "4 places, 4 m from each other, but there are 10 robots")],
     );
     check(
@@ -203,8 +206,8 @@ fn chains_that_do_not_fit() {
 #[test]
 fn open_queues_have_room_beyond_their_ends() {
     let room = |open: &str| {
-        let segment = format!("[5.0, 5.0]]{open}");
-        let verdicts = judged("7.10.yaml", "[100.0, 100.0]]", &segment);
+        let segment = format!("[5.0, 5.0]]{open}}}\nteam_goal: [5.0, 5.0]");
+        let verdicts = judged("7.10.yaml", LINE, &segment);
         verdicts.into_iter().find(|verdict| verdict.check == "room").unwrap()
     };
     let (closed, open) = (room(""), room(", open_end: true"));
@@ -268,4 +271,73 @@ fn walls_are_stronger_than_the_trench() {
     assert!(!oblique.holds && oblique.finding.contains("pulls with up to 8.7"), "{oblique:?}");
     // Printed walls are deep enough for what comes at them.
     assert!(["6.5.yaml", "7.10_obstacles.yaml"].iter().all(|name| !walls(name, "", "").note));
+}
+
+/// Directions go on along open queues, as robots do.
+#[test]
+fn open_queues_go_on_along_directions() {
+    let line = "[[-5.0, -5.0], [100.0, 100.0]]";
+    check("6.5.yaml", line, "[[5.0, 5.0], [100.0, 100.0]], open_start: true", &[]);
+    let room = judged("6.5.yaml", line, "[[69.0, 69.0], [100.0, 100.0]], open_start: true");
+    let room = room.into_iter().find(|verdict| verdict.check == "room").unwrap();
+    assert!(room.holds && room.finding.contains("goes on for ever"), "{room:?}");
+}
+
+/// Obstacles that are on their way to the segment are judged before they are there.
+#[test]
+fn obstacles_that_will_cover_the_segment() {
+    let rectangle = "- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]]}";
+    let moving = |least: f64, velocity: f64| {
+        let corners = format!("[-30.0, {least:?}], [30.0, {least:?}], [30.0, {0:?}], [-30.0, {0:?}]", least + 3.0);
+        format!("- {{polygon: [{corners}], velocity: [0.0, {velocity:?}]}}")
+    };
+    let rooms = |obstacle: &str| -> Vec<Verdict> {
+        judged("7.11.yaml", rectangle, obstacle).into_iter().filter(|verdict| verdict.check == "room").collect()
+    };
+    // Its edge comes within a metre of the segment after 11 m at 0.2 m/s, and is there after 60 s.
+    let covered = rooms(&moving(-15.0, 0.2));
+    assert!(covered[0].holds && !covered[1].holds, "{covered:?}");
+    assert!(covered[1].finding.contains("leave no qualified fragment from 55.00 s on to the end"), "{covered:?}");
+    // 11 m at 0.5 m/s; past it after 16 m.
+    let passed = rooms(&moving(-15.0, 0.5));
+    assert!(passed[1].holds && passed[1].note, "{passed:?}");
+    assert!(passed[1].finding.contains("no qualified fragment from 22.00 s on for a while"), "{passed:?}");
+    let away = rooms(&moving(-15.0, -0.5));
+    assert!(away[1].holds && !away[1].note, "{away:?}");
+    // Nothing moves: judged once.
+    assert_eq!(rooms(rectangle).len(), 1);
+}
+
+/// Bounds need not rise along a chain: the one who may leave is named, not the last.
+#[test]
+fn who_may_leave_is_named() {
+    let chain = trench_check::ChainOfRobots {
+        instead_of: None,
+        robots: 2,
+        gains: (2.0, 3.0),
+        initial_error: 0.02,
+        tolerance: 0.06,
+        setting_out: 0.064_583,
+        acceleration: None,
+    };
+    let verdict = trench_check::chain("square", &chain);
+    let Some(Values::Chain { bounds, .. }) = &verdict.values else { panic!("{verdict:?}") };
+    assert!(bounds[0] > 0.06 && bounds[1] < 0.06, "{bounds:?}");
+    assert!(!verdict.holds && verdict.finding.contains(": rank 1 may leave 0.06 (0.0"), "{verdict:?}");
+}
+
+/// Where the chain leader goes by itself nobody follows: one conformed half a kilometre away, and every verdict held.
+#[test]
+fn team_goals_are_within_reach_of_the_segment() {
+    for (name, on) in [("7.10.yaml", "team_goal: [100.0, 100.0]"), ("6.5.yaml", "team_goal: [70.0, 70.0]")] {
+        let of = |goal: &str| judged(name, on, goal).into_iter().find(|verdict| verdict.check == "goal");
+        assert_eq!(of(on), None, "{name}");
+        let near = of("team_goal: [72.0, 70.0]").unwrap();
+        assert!(near.holds && near.note && near.finding.contains("1.414 m away from the segment"), "{near:?}");
+        let far = of("team_goal: [500.0, -300.0]").unwrap();
+        assert!(
+            !far.holds && far.finding.contains("the nearest point of the segment is [100.0000, 100.0000]"),
+            "{far:?}"
+        );
+    }
 }

@@ -64,7 +64,7 @@ fn chains_are_bounded_rank_by_rank() {
     check(
         &chain("line", &ChainOfRobots { robots: 10, tolerance: 0.05, ..of }),
         false,
-        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 10 may leave 0.05 (0.06464; by (8.26) 9e13): at most 7 robots in one \
+        "the linear queue law (8.11) with K = (2, 3) and errors of 0.02 at the start: rank 8 may leave 0.05 (0.05416; by (8.26) 4e10): at most 7 robots in one \
          chain stay within; by rank 0.02034, 0.02963, 0.0354, 0.03932, 0.04236, 0.04559, 0.04958, 0.05416, ...",
     );
     check(

@@ -162,24 +162,27 @@ pub fn segment(node: &Node) -> Result<(CurveShape, Curve), ConfigError> {
         "arc" => CurveShape::Arc {
             centre: point(map.node("centre")?)?,
             radius: map.f64("radius")?,
-            start_angle: map.f64("start_angle")?,
+            start_angle: match angle(&map, "start_angle")? {
+                Some(angle) => angle,
+                None => map.f64("start_angle")?,
+            },
             sweep: map.f64("sweep")?,
         },
         // The whole turn, to the last digit, which nobody writes.
         "circle" => CurveShape::Arc {
             centre: point(map.node("centre")?)?,
             radius: map.f64("radius")?,
-            start_angle: map.opt_f64("start_angle")?.unwrap_or(0.0),
+            start_angle: angle(&map, "start_angle")?.unwrap_or(0.0),
             sweep: core::f64::consts::TAU,
         },
         "ellipse" => CurveShape::Ellipse {
             centre: point(map.node("centre")?)?,
             semi_axes: map.get("semi_axes")?,
-            rotation: map.opt_f64("rotation")?.unwrap_or(0.0),
+            rotation: angle(&map, "rotation")?.unwrap_or(0.0),
         },
         "sinusoid" => CurveShape::Sinusoid {
             origin: point(map.node("origin")?)?,
-            direction: map.opt_f64("direction")?.unwrap_or(0.0),
+            direction: angle(&map, "direction")?.unwrap_or(0.0),
             length: map.f64("length")?,
             amplitude: map.f64("amplitude")?,
             wavelength: map.f64("wavelength")?,
@@ -209,7 +212,38 @@ fn refused(map: &Map<'_>, error: &CurveError) -> ConfigError {
         }
         CurveError::Range { .. } => map.error("to", error.to_string(), "write a greater one"),
         CurveError::Sweep(_) => map.error("sweep", error.to_string(), "write kind: circle for a whole turn"),
+        CurveError::NotPositive { what, .. } => {
+            map.error(key_of(what), error.to_string(), "write a number of metres above 0")
+        }
+        CurveError::PointCount { .. } | CurveError::RepeatedPoint(..) => {
+            map.error("points", error.to_string(), "mend the list")
+        }
         _ => map.as_node().error(error.to_string(), "mend the segment"),
+    }
+}
+
+/// The key that stands for a length of a curve.
+fn key_of(what: &str) -> &'static str {
+    match what {
+        "the radius" => "radius",
+        "the length" => "length",
+        "the wavelength" => "wavelength",
+        _ => "semi_axes",
+    }
+}
+
+/// An angle of a key, rad, if it is there: more than a turn is one in degrees.
+///
+/// # Errors
+/// When it is there and no angle.
+pub fn angle(map: &Map<'_>, key: &str) -> Result<Option<f64>, ConfigError> {
+    let angle = map.opt_f64(key)?;
+    match angle.filter(|angle| angle.abs() > core::f64::consts::TAU) {
+        None => Ok(angle),
+        Some(beyond) => {
+            let remedy = format!("write radians: {beyond} degrees are {:.6}", beyond.to_radians());
+            Err(map.error(key, "is more than a turn", remedy))
+        }
     }
 }
 

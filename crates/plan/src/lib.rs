@@ -15,7 +15,7 @@ mod trench;
 
 pub use chain::{ChainPlaces, NoRoom};
 pub use expression::{expression, expression_remedy};
-pub use file::{parse, segment};
+pub use file::{angle, parse, segment};
 pub use message::{FormationError, plan_from_message};
 pub use plan::{Frame, Motion, Place, Plan, QueuePlan};
 pub use sample::sampled;
@@ -23,7 +23,7 @@ pub use segment::{SegmentError, curve_from_message, message_from_shape, shape_fr
 pub use trench::{TRENCH_RANGE, TRENCH_SHAPES, trench_from_parameters};
 
 /// Vertices and starts may lie this far from their segment, m: rounding in the file, no more.
-const ON_SEGMENT: f64 = 1e-3;
+pub const ON_SEGMENT: f64 = 1e-3;
 
 /// Shares may miss 1 by this much: rounding of thirds in the file.
 const SHARES: f64 = 0.005;

@@ -8,6 +8,7 @@ mod gaps;
 mod launch;
 mod law;
 mod measures;
+mod neutral;
 mod read;
 mod robots;
 mod scenario;
@@ -25,6 +26,6 @@ pub use scenario::{
 };
 pub use simulation::{RunError, Sample, Simulation};
 pub use summary::{
-    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary, TransitSummary, Transits,
-    WheelSummary,
+    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary,
+    TransitSummary, Transits, WheelSummary,
 };

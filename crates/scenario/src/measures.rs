@@ -2,9 +2,10 @@
 
 use crate::closest::Closest;
 use crate::gaps::Gaps;
+use crate::neutral::outside;
 use crate::robots::Robots;
 use crate::summary::{
-    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, RobotSummary, Summary, WheelSummary,
+    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary, WheelSummary,
 };
 use crate::transits::Watch;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
@@ -42,6 +43,8 @@ struct Kept {
     leader: Option<u32>,
     /// When it was last away from what draws it, s; negative: never.
     last_away: f64,
+    /// When something last drew it, s; negative: never.
+    last_drawn: f64,
     /// Least and greatest, m.
     leader_range: [f64; 2],
     /// Greatest Lyapunov function and greatest rate of it.
@@ -68,6 +71,7 @@ impl Measures {
         let kept = |seat: &Seat| Kept {
             leader: seat.leader.map(|leader| leader as u32),
             last_away: -1.0,
+            last_drawn: -1.0,
             leader_range: [f64::INFINITY, 0.0],
             lyapunov: [f64::NEG_INFINITY; 2],
         };
@@ -167,6 +171,7 @@ impl Measures {
                     position: pair(sample.position),
                     error: sample.deviation,
                     conforms_after: since(self.kept[index].last_away),
+                    no_fragment_since: since(self.kept[index].last_drawn),
                     leader_distance: leader,
                     leader_distance_range: seat.leader.map(|_| self.kept[index].leader_range),
                     misalignment: is_unicycle.then_some(sample.misalignment),
@@ -184,6 +189,8 @@ impl Measures {
         let all = robots.iter().map(|robot| robot.conforms_after).collect::<Option<Vec<f64>>>();
         // A queue of chapter 8 has leaders, but no zones.
         let has_leaders = scenario.zoning().is_some() && robots.iter().any(|robot| robot.leader_distance.is_some());
+        let outside_neutral =
+            scenario.zoning().map_or(Vec::new(), |zoning| self.outside(scenario, samples, case, zoning));
         CaseSummary {
             label: label.to_owned(),
             conforms_after: all.map(|times| times.into_iter().fold(0.0, f64::max)),
@@ -196,9 +203,20 @@ impl Measures {
                 .collect(),
             changes: self.changes.clone(),
             neutral_after: if has_leaders { since(self.teams[case].last_outside) } else { None },
+            outside_neutral,
             in_zone_1: self.teams[case].in_zone_1,
             robots,
         }
+    }
+
+    /// Whose leaders are not in their neutral zones at the end.
+    fn outside(&self, scenario: &Scenario, samples: &[Sample], case: usize, zoning: &Zoning) -> Vec<OutsideSummary> {
+        let rows = self.seats.iter().zip(samples).filter(|(seat, _)| seat.case == case);
+        let led = rows.filter_map(|row| {
+            let leader = row.0.leader?;
+            outside(row, (self.seats.get(leader)?, samples.get(leader)?), zoning, scenario.tolerance)
+        });
+        led.collect()
     }
 }
 
@@ -215,6 +233,9 @@ impl Kept {
         let deviation = robots.deviation(index);
         if deviation.is_nan() || deviation > tolerance {
             self.last_away = time;
+        }
+        if deviation.is_finite() {
+            self.last_drawn = time;
         }
         if let Some([value, rate]) = robots.lyapunov(index) {
             self.lyapunov = [self.lyapunov[0].max(value), self.lyapunov[1].max(rate)];

@@ -3,7 +3,7 @@
 use crate::{ChosenLaw, GoalLaw, Launch};
 use trench_formation::Vector2;
 use trench_formation::compared::{AnyGuide, Course};
-use trench_formation::curve::CurveShape;
+use trench_formation::curve::{Curve, CurveShape};
 use trench_formation::kinematics::{Hilare, PointState, Pose, WheelDrive};
 use trench_formation::laws::Capability;
 use trench_formation::simulate::{ChainScenario, Integration, QueueScenario, WaveGoals, ZonedChainScenario};
@@ -161,6 +161,8 @@ pub struct Directed {
     pub chain: ZonedChainScenario<AnyTrench>,
     /// The whole segment, m.
     pub segment: CurveShape,
+    /// The same with its open ends.
+    pub curve: Curve,
 }
 
 /// A queue under the linear laws (8.7) and (8.11).

@@ -30,12 +30,29 @@ pub struct CaseSummary {
     pub obstacles: Vec<ObstacleSummary>,
     /// s after which every leader is for good in its follower's neutral zone; none where it is not.
     pub neutral_after: Option<f64>,
+    /// Who is not in its follower's neutral zone at the end, and why: nobody where `neutral_after` says something, or where there are no zones.
+    pub outside_neutral: Vec<OutsideSummary>,
     /// Seconds that robots spent in zone 1 of a robot, summed over pairs.
     pub in_zone_1: f64,
     /// What befell a queue, in time: robots that quit and join, links that break.
     pub changes: Vec<ChangeSummary>,
     /// By rank.
     pub robots: Vec<RobotSummary>,
+}
+
+/// A follower whose leader is not in its neutral zone at the end.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutsideSummary {
+    /// The follower.
+    pub robot: String,
+    /// The robot that it follows.
+    pub leader: String,
+    /// In which zone of Fig. 6.1 that is; 6 is beyond all of them.
+    pub zone: u8,
+    /// Between them, m.
+    pub distance: f64,
+    /// For people.
+    pub why: String,
 }
 
 /// A change of a queue's structure.
@@ -71,6 +88,8 @@ pub struct RobotSummary {
     pub error: f64,
     /// s after which it stays within the tolerance.
     pub conforms_after: Option<f64>,
+    /// s since when no qualified fragment has been left that would draw it (7.5.1), to the end; none where one is.
+    pub no_fragment_since: Option<f64>,
     /// m, at the end.
     pub leader_distance: Option<f64>,
     /// Least and greatest, m.

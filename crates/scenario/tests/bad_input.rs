@@ -1,7 +1,7 @@
 //! What is wrong with a scenario file is said with file, line, key, problem and remedy.
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking, in its helper functions too")]
 
-use trench_scenario::parse;
+use trench_scenario::{is_scenario, parse};
 
 fn file(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../config/scenarios/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
@@ -208,4 +208,102 @@ fn messages_are_short() {
     let said = wave("1.0", "1.0e+200");
     assert!(said.contains("amplitude = 1.0e+200"), "{said}");
     assert!(wave("1.0e-4", "1.0").contains("fewer and longer waves"));
+}
+
+#[test]
+fn directions_and_angles() {
+    let direction = "direction: 2.356194490192345";
+    check(
+        "6.5.yaml",
+        direction,
+        "direction: 135.0",
+        &["direction = 135.0", "more than a turn", "135 degrees are 2.356194"],
+    );
+    check(
+        "6.5.yaml",
+        direction,
+        "direction: 0.7853981633974483",
+        &["direction", "is parallel to the segment", "for example 2.3562 rad"],
+    );
+    check(
+        "6.5_bounded.yaml",
+        "compensates: true}",
+        "compensates: true, direction: 90.0}",
+        &["directed.direction", "degrees"],
+    );
+    for key in ["heading", "misalignment"] {
+        let degrees = format!("{key}: 90.0");
+        check("4.4.4.yaml", "misalignment: 1.0", &degrees, &[&format!("robots[0].{key} = 90.0"), "more than a turn"]);
+    }
+    check("4.4.4.yaml", "misalignment: 1.0", "misalignment: 1.0, heading: 1.0", &["heading", "unknown key"]);
+    let arc = "{kind: arc, centre: [0, 0], radius: 1.0, start_angle: 90.0, sweep: 1.0}";
+    check("7.11.yaml", SEGMENT, arc, &["segment.start_angle = 90.0", "90 degrees are 1.570796"]);
+}
+
+#[test]
+fn lengths_of_segments_are_blamed_themselves() {
+    let arc = "\n  kind: arc\n  centre: [0, 0]\n  start_angle: 0.0\n  sweep: 1.0\n  radius: 0.0";
+    let line = told("7.11.yaml", SEGMENT, arc, &["segment.radius = 0.0", "above 0"]);
+    assert_eq!(line, 14);
+    check("7.11.yaml", SEGMENT, "{kind: line, points: [[1, 1], [1, 1]]}", &["segment.points", "coincide"]);
+    check(
+        "7.11.yaml",
+        "edge: jump                 # as",
+        "edge: jump\n  full_acceleration: 0.0 # as",
+        &["zoning.full_acceleration"],
+    );
+}
+
+#[test]
+fn numbers_of_potentials_and_seeking_are_blamed_themselves() {
+    check(
+        "6.5.yaml",
+        "full_acceleration: 1.0e+4",
+        "full_acceleration: -5.0",
+        &["zoning.full_acceleration = -5.0", "above 0"],
+    );
+    let potential = "strength: 10.0, m: 2, edge: jump}";
+    let weak = "strength: 10.0, m: 2, edge: jump, full_acceleration: 0.0}";
+    check("7.11.yaml", potential, weak, &["obstacle_potential.full_acceleration = 0.0", "above 0"]);
+    let euler = "method: semi_implicit_euler";
+    check("7.11.yaml", euler, &format!("{euler}\nseeking: {{room: -1.0}}"), &["seeking.room = -1.0", "zero or more"]);
+}
+
+#[test]
+fn figures_are_of_the_run() {
+    let caught = "draws: trajectories}";
+    check("7.11.yaml", caught, "draws: snapshots, at: [-5.0, 0.0]}", &["figures[0].at", "before the run", "from 0 on"]);
+    check("7.11.yaml", caught, "draws: snapshots, at: [900.0]}", &["figures[0].at", "after the run", "its end, 60"]);
+}
+
+/// What does nothing is not accepted, nor what would be done otherwise than it is written.
+#[test]
+fn keys_that_would_do_nothing() {
+    check(
+        "4.4.4.yaml",
+        "kind: regulation",
+        "kind: regulation\ncompared: {nonsense: true}",
+        &["compared", "unknown key"],
+    );
+    check("4.6_square.yaml", "kind: launch", "kind: launch\ntolerance: 0.1", &["tolerance", "unknown key"]);
+    let text = file("7.15.yaml");
+    let exponent = text.lines().find_map(|line| line.split("goal_exponent: ").nth(1)).unwrap();
+    let exponent = exponent.split([',', '}']).next().unwrap();
+    let text = text.replacen(&format!("goal_exponent: {exponent}"), "goal_exponent: 1.7", 1);
+    let told = parse("7.15.yaml", &text).unwrap_err().to_string();
+    assert!(told.contains("goal_exponent = 1.7"), "{told}");
+}
+
+/// A file that is a scenario by all but its kind is one whose kind was forgotten, not a launch file.
+#[test]
+fn kinds_are_asked_for() {
+    let text = file("7.11.yaml").replace("kind: nearest_points\n", "");
+    assert!(
+        is_scenario(&text) && !is_scenario("launch:\n- node: {exec: a}\n") && !is_scenario("name: a\nqueues: []\n")
+    );
+    let told = parse("7.11.yaml", &text).unwrap_err().to_string();
+    assert!(
+        told.starts_with("7.11.yaml:") && told.contains(": kind: is missing; write kind: and one of regulation, "),
+        "{told}"
+    );
 }

@@ -21,7 +21,7 @@ pub(super) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
     let root = yaml::parse(file, text)?;
     let map = root.map()?;
     // Before launch files: a scenario may name one.
-    if map.opt_node("kind").is_some() && !has_parameters(&root) {
+    if trench_scenario::is_scenario(text) && !has_parameters(&root) {
         return Ok(Kind::Scenario);
     }
     if map.opt_node("launch").is_some() {
@@ -66,6 +66,8 @@ mod tests {
         check("/robot1:\n  formation_controller:\n    ros__parameters: {law: robust}\n", Kind::Parameters);
         check("name: a\nkind: regulation\n", Kind::Scenario);
         check("name: a\nkind: launch\nlaunch: b.yaml\n", Kind::Scenario);
+        // Its kind was forgotten.
+        check("name: a\nduration: 1.0\nstep: 0.1\n", Kind::Scenario);
         let error = kind("a.yaml", "camera: 1\n").unwrap_err().to_string();
         assert!(error.starts_with("a.yaml: is no formation (queues:)"), "{error}");
     }

@@ -10,7 +10,9 @@ use std::path::Path;
 use std::time::Instant;
 use trench_bag::run::Run;
 use trench_check::Verdict;
-use trench_scenario::{CaseSummary, ChangeSummary, Measures, Scenario, Simulation, Summary, Transits, WheelSummary};
+use trench_scenario::{
+    CaseSummary, ChangeSummary, Measures, OutsideSummary, Scenario, Simulation, Summary, Transits, WheelSummary,
+};
 
 mod messages;
 
@@ -80,6 +82,11 @@ pub(crate) fn tell(summary: &Summary, infeasible: &[Verdict], json: bool) {
 
 struct Told<'a>(&'a Summary);
 
+/// m, or nothing where nothing draws a robot.
+fn metres(value: f64) -> String {
+    if value.is_finite() { format!("{value:.6}") } else { "-".to_owned() }
+}
+
 impl Display for Told<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Summary { name, section, duration, step, cases } = self.0;
@@ -102,6 +109,23 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
             writeln!(formatter, "  obstacle {id}: no robot nearer than {gap:.4} m")?;
         }
     }
+    if let Some(after) = case.neutral_after {
+        writeln!(formatter, "  leaders in neutral zones for good after {after:.2} s")?;
+    }
+    for OutsideSummary { robot, leader, zone, distance, why } in &case.outside_neutral {
+        let zone = if *zone == 6 { "beyond all zones".to_owned() } else { format!("in zone {zone}") };
+        writeln!(formatter, "  {leader} is {zone} of {robot}, {distance:.4} m away: {why}")?;
+    }
+    let laws = || case.robots.iter().filter_map(|robot| Some((robot, robot.lyapunov?)));
+    if let Some((robot, steepest)) = laws().max_by(|(_, a), (_, b)| a.greatest_rate.total_cmp(&b.greatest_rate)) {
+        let [greatest, last] =
+            laws().fold([0.0_f64; 2], |[greatest, last], (_, law)| [greatest.max(law.greatest), last.max(law.last)]);
+        let (rate, name) = (steepest.greatest_rate, &robot.name);
+        writeln!(
+            formatter,
+            "  V of the laws: {greatest:.4} at most, {last:.4} at the end; greatest rate {rate:.4} 1/s ({name})"
+        )?;
+    }
     for ChangeSummary { time, robot, change, rank } in &case.changes {
         let rank = rank.map_or(String::new(), |rank| format!(" as rank {rank}"));
         writeln!(formatter, "  after {time:.2} s {robot} {change}{rank}")?;
@@ -113,9 +137,9 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
             |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
         writeln!(
             formatter,
-            "  {:<10} {x:>9.4} {y:>9.4} {:>11.6} {:>13} {:>11} {:>10} {:>7}",
+            "  {:<10} {x:>9.4} {y:>9.4} {:>11} {:>13} {:>11} {:>10} {:>7}",
             robot.name,
-            robot.error,
+            metres(robot.error),
             robot.conforms_after.map_or("never".to_owned(), |time| format!("{time:.2}")),
             optional(robot.leader_distance, 4),
             optional(robot.misalignment, 5),
@@ -123,6 +147,13 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
         )?;
     }
     for robot in &case.robots {
+        if let Some(since) = robot.no_fragment_since {
+            let name = &robot.name;
+            writeln!(
+                formatter,
+                "  {name} has been drawn nowhere since {since:.2} s: no qualified fragment is left (7.5.1)"
+            )?;
+        }
         if let Some(Transits { count: count @ 1.., first }) = &robot.transits {
             let times: Vec<String> =
                 first.iter().take(TRANSITS).map(|transit| format!("{:.2}", transit.time)).collect();

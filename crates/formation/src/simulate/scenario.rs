@@ -162,7 +162,7 @@ impl<T> ChainScenario<T> {
     }
 
     /// Whether any obstacle moves.
-    pub(super) fn moves(&self) -> bool {
+    pub fn moves(&self) -> bool {
         self.options.obstacle_velocities.iter().any(|velocity| *velocity != Vector2::zeros())
     }
 
@@ -172,7 +172,10 @@ impl<T> ChainScenario<T> {
     }
 
     /// The obstacles at `time` (s).
-    pub(super) fn obstacles_at(&self, time: f64) -> Result<Vec<Obstacle>, ScenarioError> {
+    ///
+    /// # Errors
+    /// Ways beyond all numbers.
+    pub fn obstacles_at(&self, time: f64) -> Result<Vec<Obstacle>, ScenarioError> {
         let moved = |(obstacle, velocity): (&Obstacle, Vector2<f64>)| {
             Ok(Obstacle { id: obstacle.id, shape: obstacle.shape.moved(time * velocity)? })
         };

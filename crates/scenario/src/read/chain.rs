@@ -1,7 +1,8 @@
 //! `kind: directions_of_attraction` (6.5) and `kind: nearest_points` (chapter 7).
 
 use super::common::{
-    body, edge, limits, not_negative, point, point_or_zero, points, positive, sharpness, some, trench, zoning,
+    FULL, body, edge, limits, not_negative, point, point_or_zero, points, positive, positive_or, sharpness, some,
+    trench, zoning,
 };
 use super::queue::broken_links;
 use super::ranks::ranked;
@@ -16,7 +17,7 @@ use trench_formation::hull::{Obstacle, Outline, Shape};
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{NearestAttraction, ZonedAttraction};
 use trench_formation::safety::Stopping;
-use trench_formation::seek::{Fragments, LeaderRule, SeekSettings};
+use trench_formation::seek::{Fragments, LeaderRule, SeekError, SeekSettings};
 use trench_formation::simulate::{
     Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, Sight, ZonedChainScenario,
 };
@@ -25,6 +26,9 @@ use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness};
 
 /// What robots that remember, or are bounded, have besides: the controllers' core simulates them.
 const BESIDES: [&str; 6] = ["remedies", "sidesteps", "limits", "safety", "recovery", "broken_links"];
+
+/// Sine of the angle to a segment below which a direction is along it.
+const PARALLEL: f64 = 1e-6;
 
 /// 6.5.
 pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigError> {
@@ -41,9 +45,14 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
     let ranked = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
     let (nodes, robots) = (&ranked.0, ranked.1.clone());
     let (tangent, domain) = ((to - from).normalize(), curve.domain());
-    let direction = map.opt_f64("direction")?;
+    let direction = trench_plan::angle(map, "direction")?;
     let across = Vector2::new(-tangent.y, tangent.x);
     let unit = |angle: f64| Vector2::new(libm::cos(angle), libm::sin(angle));
+    if direction.is_some_and(|direction| unit(direction).perp(&tangent).abs() < PARALLEL) {
+        let remedy =
+            format!("write one across it, for example {:.4} rad, or none at all", libm::atan2(across.y, across.x));
+        return Err(map.error("direction", "is parallel to the segment, and meets it nowhere (6.3)", remedy));
+    }
     let chain = ZonedChainScenario {
         origin: from,
         tangent,
@@ -76,7 +85,7 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
         }
     }
     if BESIDES.iter().all(|key| map.opt_node(key).is_none()) {
-        return Ok(Task::Directed(Box::new(Directed { chain, segment: shape })));
+        return Ok(Task::Directed(Box::new(Directed { chain, segment: shape, curve })));
     }
     let method = Method::Directed { direction: direction.map(unit), compensates: chain.law.compensates };
     let ZonedAttraction { trench, zoning, damping, leader_damping, .. } = chain.law;
@@ -189,7 +198,7 @@ fn buildable(map: &Map<'_>, robots: &[&Node], scenario: &ChainScenario<AnyTrench
             ScenarioError::SightTooFine(_) => map.error("sight", text, "give a longer `piece`"),
             ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),
-            ScenarioError::Seek(_) => map.error("seeking", text, "mend it"),
+            ScenarioError::Seek(wrong) => seeking_error(map, &wrong),
         });
     }
     let whole = scenario.segment.domain();
@@ -222,7 +231,7 @@ fn state(node: &Node) -> Result<PointState, ConfigError> {
 fn carriage(map: &Map<'_>) -> Result<Carriage, ConfigError> {
     let carriage = Carriage {
         origin: point_or_zero(map, "origin")?,
-        heading: map.get_or("heading", 0.0)?,
+        heading: trench_plan::angle(map, "heading")?.unwrap_or(0.0),
         velocity: point_or_zero(map, "velocity")?,
         turn_rate: map.get_or("turn_rate", 0.0)?,
     };
@@ -280,7 +289,7 @@ fn shapes(node: &Node, map: &Map<'_>) -> Result<Vec<Shape>, ConfigError> {
 fn potential(map: &Map<'_>) -> Result<ObstaclePotential, ConfigError> {
     let map = map.map("obstacle_potential")?;
     let (pole, cut) = (not_negative(&map, "pole", 0.0)?, positive(&map, "cut")?);
-    let full = map.get_or("full_acceleration", 1e4)?;
+    let full = positive_or(&map, "full_acceleration", FULL)?;
     let made = ObstaclePotential::new(pole, cut, positive(&map, "strength")?, sharpness(&map)?, edge(&map)?, full);
     let made = made.map_err(|error| map.error("cut", error.to_string(), "mend the gaps"))?;
     map.finish()?;
@@ -295,6 +304,15 @@ const SEEKING: SeekSettings = SeekSettings {
     settled_speed: 0.05,
     leader_rule: LeaderRule::StepSix,
 };
+
+/// What is wrong with a number of `seeking`, at its key.
+fn seeking_error(map: &Map<'_>, wrong: &SeekError) -> ConfigError {
+    let remedy = format!("write a number that is {}", wrong.required);
+    match map.opt_map("seeking") {
+        Ok(Some(seeking)) => seeking.error(wrong.name, wrong.to_string(), remedy),
+        _ => map.error("seeking", wrong.to_string(), remedy),
+    }
+}
 
 fn seeking(map: &Map<'_>) -> Result<SeekSettings, ConfigError> {
     let standard = SEEKING;
@@ -337,7 +355,7 @@ fn encroaching(map: &Map<'_>) -> Result<Encroaching, ConfigError> {
 
 /// Law (6.1) instead of (7.13): in a direction of the segment's frame, or across the segment.
 fn along_directions(map: &Map<'_>) -> Result<Method, ConfigError> {
-    let direction = map.opt_f64("direction")?.map(|angle| Vector2::new(libm::cos(angle), libm::sin(angle)));
+    let direction = trench_plan::angle(map, "direction")?.map(|angle| Vector2::new(libm::cos(angle), libm::sin(angle)));
     let method = Method::Directed { direction, compensates: map.get_or("compensates", true)? };
     map.finish()?;
     Ok(method)

@@ -13,6 +13,9 @@ use trench_formation::zoning::{Edge, Radii, RadiiError, Sharpness, Zoning};
 /// Trenches are judged and written ones defined this far out, m.
 const RANGE: f64 = 1000.0;
 
+/// `full_acceleration` where the file says nothing, m/s^2: as good as none.
+pub(super) const FULL: f64 = 1e4;
+
 /// A number above 0.
 pub(super) fn positive(map: &Map<'_>, key: &str) -> Result<f64, ConfigError> {
     let value = map.f64(key)?;
@@ -69,6 +72,11 @@ pub(super) fn name(map: &Map<'_>) -> Result<String, ConfigError> {
         return Ok(name.to_owned());
     }
     Err(map.error("name", "cannot be part of a topic", "begin with a letter; small letters, digits and _ alone"))
+}
+
+/// A number above 0, `default` where it is missing.
+pub(super) fn positive_or(map: &Map<'_>, key: &str, default: f64) -> Result<f64, ConfigError> {
+    if map.opt_node(key).is_some() { positive(map, key) } else { Ok(default) }
 }
 
 /// Items of a list that must have some.
@@ -181,9 +189,9 @@ pub(super) fn zoning(map: &Map<'_>) -> Result<Zoning, ConfigError> {
         map.error(key, error.to_string(), remedy)
     })?;
     let strength = (positive(&map, "alpha")?, positive(&map, "beta")?);
-    let full = map.get_or("full_acceleration", 1e4)?;
+    let full = positive_or(&map, "full_acceleration", FULL)?;
     let zoning = Zoning::new(radii, strength, sharpness(&map)?, edge(&map)?, full);
-    let zoning = zoning.map_err(|error| map.as_node().error(error.to_string(), "mend it"))?;
+    let zoning = zoning.map_err(|error| map.as_node().error(error.to_string(), "write numbers above 0"))?;
     map.finish()?;
     Ok(zoning)
 }

@@ -1,6 +1,6 @@
 //! `compared` of `kind: nearest_points`: the methods that 7.8 compares apparent obstacles with.
 
-use super::common::{name, not_negative, points, positive, some};
+use super::common::{name, points, positive, some};
 use crate::scenario::{Compared, ComparedCase};
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
@@ -10,6 +10,9 @@ use trench_formation::compared::{AnyGuide, Course, InstantGoals, VirtualObstacle
 use trench_formation::curve::Placed;
 use trench_formation::simulate::{ChainScenario, Integration};
 use trench_formation::trench::AnyTrench;
+
+/// Exponents are small numbers.
+const MOST_EXPONENT: i64 = 9;
 
 /// Each method takes the robot from the same start, among the same walls, to the point that is nearest there.
 pub(super) fn read(root: &Map<'_>, map: &Map<'_>, chain: &ChainScenario<AnyTrench>) -> Result<Compared, ConfigError> {
@@ -40,6 +43,14 @@ pub(super) fn read(root: &Map<'_>, map: &Map<'_>, chain: &ChainScenario<AnyTrenc
     Ok(Compared { label, cases })
 }
 
+/// n of the repulsion, 0 where nothing is said.
+fn exponent(map: &Map<'_>) -> Result<i32, ConfigError> {
+    match map.get_or("goal_exponent", 0_i64)? {
+        exponent @ 0..=MOST_EXPONENT => Ok(exponent as i32),
+        _ => Err(map.error("goal_exponent", "is no exponent of Ge and Cui's repulsion", "write 0, 1, 2 ... up to 9")),
+    }
+}
+
 /// The corners of an obstacle's walls.
 fn walls(node: &Node) -> Result<Vec<Vector2<f64>>, ConfigError> {
     match node.map()?.opt_node("walls") {
@@ -57,11 +68,8 @@ fn case(node: &Node, course: &Course) -> Result<ComparedCase, ConfigError> {
         1 => AnyGuide::Virtual(VirtualObstacles::new(positive(&map, "clearance")?)),
         _ => AnyGuide::Instant(InstantGoals::new(positive(&map, "sight")?, positive(&map, "clearance")?)),
     };
-    let repulsion = ComparedRepulsion {
-        strength: positive(&map, "strength")?,
-        goal_exponent: not_negative(&map, "goal_exponent", 0.0)? as i32,
-        ..course.repulsion
-    };
+    let repulsion =
+        ComparedRepulsion { strength: positive(&map, "strength")?, goal_exponent: exponent(&map)?, ..course.repulsion };
     map.finish()?;
     Ok(ComparedCase { name, label, course: Course { repulsion, ..course.clone() }, guide })
 }

@@ -45,6 +45,9 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
     {
         return Err(map.error("window", "is empty", "write [left, right, bottom, top]"));
     }
+    if let Some(at) = figure.at.iter().find(|at| **at < 0.0) {
+        return Err(map.error("at", format!("{at} s is before the run"), "write seconds from 0 on"));
+    }
     if matches!(scenario.task, Task::Launch(_)) {
         let drawn = [Drawing::Trajectories, Drawing::Errors, Drawing::Snapshots, Drawing::Speeds];
         if !drawn.contains(&figure.drawing) {
@@ -52,6 +55,11 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
             return Err(map.error("draws", "is no picture of a launch file's run", remedy));
         }
         return Ok(figure);
+    }
+    let end = scenario.timing.duration;
+    if let Some(at) = figure.at.iter().find(|at| **at > end + 0.5 * scenario.timing.step) {
+        let remedy = format!("write seconds up to its end, {end}, or make the `duration` longer");
+        return Err(map.error("at", format!("{at} s is after the run"), remedy));
     }
     let ranks: Vec<String> = scenario.seats().iter().map(|seat| format!("r{}", seat.rank)).collect();
     let cases: Vec<&str> = scenario.cases().into_iter().map(|(name, _)| name).collect();

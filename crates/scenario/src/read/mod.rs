@@ -38,11 +38,23 @@ const KINDS: [(&str, Kind); 6] = [
 /// Steps of one run at most: beyond, a step or duration is a slip.
 const MOST_STEPS: f64 = 1e8;
 
-/// Whether a YAML text is a scenario rather than a launch file: its root is a map with a `kind`.
+/// Distance within which a robot conforms where the file says nothing, m.
+const TOLERANCE: f64 = 0.05;
+
+/// Keys of scenarios that other files do not have.
+const OF_SCENARIOS: [&str; 4] = ["duration", "step", "segment", "robots"];
+
+/// Whether a YAML text is a scenario rather than a launch file: its root is a map with a `kind`, or with other keys of scenarios, whose kind
+/// was forgotten.
 #[must_use]
 pub fn is_scenario(text: &str) -> bool {
     let root = yaml::parse("", text);
-    root.is_ok_and(|root| root.map().is_ok_and(|map| map.opt_node("kind").is_some()))
+    root.is_ok_and(|root| root.map().is_ok_and(|map| has_keys(&map)))
+}
+
+fn has_keys(map: &Map<'_>) -> bool {
+    let has = |key: &str| map.opt_node(key).is_some();
+    has("kind") || (!has("launch") && !has("queues") && OF_SCENARIOS.into_iter().filter(|key| has(key)).count() > 1)
 }
 
 /// Reads a scenario file; `file` names it in errors.
@@ -52,6 +64,13 @@ pub fn is_scenario(text: &str) -> bool {
 pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
     let root = yaml::parse(file, text)?;
     let map = root.map()?;
+    if map.opt_node("kind").is_none() {
+        return Err(map.error(
+            "kind",
+            "is missing",
+            format!("write kind: and one of {}", KINDS.map(|(word, _)| word).join(", ")),
+        ));
+    }
     let kind = map.one_of("kind", &KINDS)?;
     let name = map.str("name")?.to_owned();
     let section = map.opt_str("section")?.unwrap_or_default().to_owned();
@@ -70,12 +89,16 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
             (timing, task)
         }
     };
-    let tolerance = match map.opt_node("tolerance") {
-        Some(_) => common::positive(&map, "tolerance")?,
-        None => 0.05,
+    // Launch files bring their own, and only a robot among walls is compared: elsewhere these keys are unknown.
+    let tolerance = match &task {
+        Task::Launch(_) => TOLERANCE,
+        _ if map.opt_node("tolerance").is_none() => TOLERANCE,
+        _ => common::positive(&map, "tolerance")?,
     };
-    let compared = match (&task, map.opt_map("compared")?) {
-        (Task::Nearest(chain, _), Some(compared)) => Some(compared::read(&map, &compared, chain)?),
+    let compared = match &task {
+        Task::Nearest(chain, _) => {
+            map.opt_map("compared")?.map(|compared| compared::read(&map, &compared, chain)).transpose()?
+        }
         _ => None,
     };
     let mut scenario = Scenario { name, section, tolerance, timing, task, compared, figures: Vec::new() };

@@ -61,9 +61,12 @@ fn start(node: &Node, goal: Vector2<f64>) -> Result<Start, ConfigError> {
     if towards == Vector2::zeros() {
         return Err(map.error("position", "is the goal", "start elsewhere"));
     }
-    let heading = match map.opt_f64("misalignment")? {
+    let heading = match trench_plan::angle(&map, "misalignment")? {
         Some(phi) => libm::atan2(towards.y, towards.x) + phi,
-        None => map.f64("heading")?,
+        None => match trench_plan::angle(&map, "heading")? {
+            Some(heading) => heading,
+            None => map.f64("heading")?,
+        },
     };
     map.finish()?;
     Ok(Start(Pose::new(position.x, position.y, heading)))

@@ -174,6 +174,7 @@ fn team_goal(scenario: &Scenario) -> impl Iterator<Item = (f64, f64)> {
 /// The segment along which robots stand, where it may be open.
 pub(super) fn curve(scenario: &Scenario) -> Option<&Curve> {
     match &scenario.task {
+        Task::Directed(task) => Some(&task.curve),
         Task::Nearest(chain, _) => Some(&chain.segment),
         Task::Queue(task) => Some(&task.queue.segment),
         _ => None,

@@ -100,7 +100,9 @@ impl<'a> Publisher<'a> {
     fn formation(&self) -> Formation {
         let (segment, vertex) = match &self.scenario.task {
             Task::Directed(task) => {
-                (trench_plan::message_from_shape(&task.segment, false, false), Some(task.chain.team_goal))
+                let (from, to) = task.curve.domain();
+                let segment = trench_plan::message_from_shape(&task.segment, from.is_infinite(), to.is_infinite());
+                (segment, Some(task.chain.team_goal))
             }
             Task::Nearest(chain, shape) => {
                 let (from, to) = chain.segment.domain();
