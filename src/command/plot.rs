@@ -179,7 +179,7 @@ fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
             return Ok((sim::launched(path, launch)?, Some(scenario)));
         }
         let manner = sim::scenario::Manner { bag: None, progress: false, threads: 1 };
-        let done = sim::scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(file))?;
+        let done = sim::scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(path))?;
         return Ok((done.run, Some(scenario)));
     }
     if path.extension().is_some_and(|extension| extension == "csv") {

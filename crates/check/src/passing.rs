@@ -16,7 +16,7 @@ const FINE: f64 = 1e-3;
 /// Judges the run beyond its beginning, if obstacles or segment move: a segment that is without room at the end makes it fail, one that is so
 /// for a while makes a note. What passes within less than a two hundredth of the run may be missed.
 pub(crate) fn room_on_the_way<T: Clone>(subject: &str, task: &ChainScenario<T>, duration: f64) -> Option<Verdict> {
-    if task.obstacles.is_empty() || !(task.moves() || !task.carriage.is_parked()) {
+    if task.obstacles.is_empty() || !task.moves() && task.carriage.is_parked() {
         return None;
     }
     let robots = task.robots.len();
