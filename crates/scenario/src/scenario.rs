@@ -143,6 +143,8 @@ pub struct Plant {
     pub body: Hilare,
     /// The motors that move it; none: force and torque are what the feedback asks for.
     pub drive: Option<WheelDrive>,
+    /// Whether the robot takes the wheel speeds that its motors would bring about, and not their torques.
+    pub commanded: bool,
 }
 
 /// Bounded actuators, and bodies.

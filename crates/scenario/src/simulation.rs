@@ -108,9 +108,10 @@ impl Simulation {
                 let hands: Vec<HandState> = hands.map(|(&hand, &theta)| HandState { hand, theta }).collect();
                 let fastest = task.goals.fastest();
                 let team = |case: &GoalCase| match (case.plant, case.bounds, &case.law) {
-                    (Some(Plant { body, drive }), ..) => {
+                    (Some(Plant { body, drive, commanded }), ..) => {
                         let team = HilareTeam::new(body, &hands, timing.integration, timing.step);
                         Team::Bodies(match drive {
+                            Some(drive) if commanded => team.driven_by(drive).commanded(),
                             Some(drive) => team.driven_by(drive),
                             None => team,
                         })

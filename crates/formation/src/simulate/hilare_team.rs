@@ -1,6 +1,6 @@
 //! Hilare robots (3.1.1) that track goal points: a law for double integrators acts on them through T1 and T2.
 use super::Integration;
-use crate::kinematics::{HandState, Hilare, HilareState, PointState, Pose, Twist, WheelDrive};
+use crate::kinematics::{HandState, Hilare, HilareState, PointState, Pose, Twist, WheelDrive, Wheels};
 use crate::laws::{GoalMotion, Steered};
 use crate::stability::rk4;
 use nalgebra::SVector;
@@ -20,6 +20,8 @@ pub struct HilareTeam {
     body: Hilare,
     /// The motors that force and torque go through; none: the body has whatever the feedback asks for.
     drive: Option<WheelDrive>,
+    /// Whether robots take the wheel speeds that the torques would bring about, and not the torques.
+    commanded: bool,
     robots: Vec<HilareState>,
     efforts: Vec<WheelEffort>,
     method: Integration,
@@ -34,13 +36,20 @@ impl HilareTeam {
     /// that is commanded once a step, and the body moves under them by RK4.
     pub fn new(body: Hilare, hands: &[HandState], method: Integration, step: f64) -> Self {
         let robots = hands.iter().map(|hand| body.from_hand(*hand)).collect();
-        Self { body, drive: None, robots, efforts: Vec::new(), method, step, steps: 0 }
+        Self { body, drive: None, commanded: false, robots, efforts: Vec::new(), method, step, steps: 0 }
     }
 
     /// Has the feedback drive the robots by the torques of their wheels.
     #[must_use]
     pub fn driven_by(self, drive: WheelDrive) -> Self {
         Self { drive: Some(drive), efforts: vec![WheelEffort::default(); self.robots.len()], ..self }
+    }
+
+    /// Has robots take velocities: each step they are given the wheel speeds that the torques, held for the step, would bring about
+    /// ([`WheelDrive::speeds_after`]), and ramp to them. Of robots that are driven by their wheels.
+    #[must_use]
+    pub fn commanded(self) -> Self {
+        Self { commanded: true, ..self }
     }
 
     /// Advances by one step. `goal` moves the goal point of a robot, `law` steers its hand to it.
@@ -58,6 +67,11 @@ impl HilareTeam {
                 let torque = drive.torques(wanted(*robot, time)).peak();
                 effort.greatest = effort.greatest.max(torque);
                 effort.saturated += if torque > drive.most { step } else { 0.0 };
+            }
+            if let Some(drive) = drive.filter(|_| self.commanded) {
+                let torques = drive.given(drive.torques(wanted(*robot, time)));
+                *robot = ramped(*robot, drive, drive.speeds_after(body, *robot, torques, step), step);
+                continue;
             }
             *robot = match self.method {
                 Integration::RungeKutta => of_vector(&rk4(time, to_vector(*robot), step, |time, now| {
@@ -91,6 +105,13 @@ impl HilareTeam {
     pub fn hands(&self) -> impl Iterator<Item = PointState> {
         self.robots.iter().map(|robot| self.body.to_hand(*robot).hand)
     }
+}
+
+/// A robot whose wheels go from their speeds to those that it is given, evenly over a step: their mean drives it.
+fn ramped(robot: HilareState, drive: WheelDrive, given: Wheels, step: f64) -> HilareState {
+    let now = drive.axle.wheels(robot.twist);
+    let mean = Wheels { left: 0.5 * (now.left + given.left), right: 0.5 * (now.right + given.right) };
+    HilareState { pose: robot.pose.advanced(drive.axle.twist(mean), step), twist: drive.axle.twist(given) }
 }
 
 fn to_vector(HilareState { pose, twist }: HilareState) -> SVector<f64, 5> {

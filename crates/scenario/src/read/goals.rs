@@ -71,7 +71,7 @@ fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<(PointState, f6
         None => point(map.node("position")?)?,
     };
     let state = PointState { position, velocity: point_or_zero(&map, "velocity")? };
-    let heading = map.get_or("heading", 0.0)?;
+    let heading = trench_plan::angle(&map, "heading")?.unwrap_or(0.0);
     map.finish()?;
     Ok((state, heading))
 }
@@ -79,10 +79,17 @@ fn robot(node: &Node, goals: &WaveGoals, index: usize) -> Result<(PointState, f6
 /// What the law acts on: double integrators, or a body, perhaps by the torques of its wheels.
 fn plant(map: &Map<'_>) -> Result<Option<Plant>, ConfigError> {
     let Some(map) = map.opt_map("plant")? else { return Ok(None) };
-    let kinds = [("double_integrator", None), ("hilare", Some(false)), ("wheels", Some(true))];
+    // Whether it has motors, and whether these take speeds.
+    let kinds = [
+        ("double_integrator", None),
+        ("hilare", Some((false, false))),
+        ("wheels", Some((true, false))),
+        ("wheel_speeds", Some((true, true))),
+    ];
     let plant = match map.one_of("kind", &kinds)? {
         None => None,
-        Some(has_motors) => Some(Plant {
+        Some((has_motors, commanded)) => Some(Plant {
+            commanded,
             body: Hilare {
                 mass: positive(&map, "mass")?,
                 inertia: positive(&map, "inertia")?,
@@ -119,7 +126,9 @@ fn case(node: &Node, robots: &[PointState]) -> Result<GoalCase, ConfigError> {
     let name = name(&map)?;
     let label = map.opt_str("label")?.unwrap_or(&name).to_owned();
     let law = map.map("law")?;
-    let chosen = match law.one_of("kind", &[("trench", 0), ("conventional", 1), ("velocity_potential", 2)])? {
+    let kinds = [("trench", 0), ("conventional", 1), ("velocity_potential", 2), ("within_limits", 3)];
+    let chosen = match law.one_of("kind", &kinds)? {
+        3 => GoalLaw::Trench(within_limits(&map)?),
         0 => {
             let trench = trench(&law, "trench")?;
             GoalLaw::Trench(laws::GoalTracking { damping: damping_with(&law, &trench)?, trench })
@@ -142,6 +151,15 @@ fn case(node: &Node, robots: &[PointState]) -> Result<GoalCase, ConfigError> {
     }
     map.finish()?;
     Ok(GoalCase { name, label, law: chosen, plant, bounds })
+}
+
+/// (5.1) with the trench and the damping that follow from what robots can do, so that nothing of it is ever cut (chapter 5 of docs/theory).
+fn within_limits(case: &Map<'_>) -> Result<laws::GoalTracking<AnyTrench, AnyDamping>, ConfigError> {
+    let Some(limits) = limits(case)? else {
+        return Err(case.error("limits", "is missing: the law follows from it", "give speed and acceleration"));
+    };
+    let laws::GoalTracking { trench, damping } = laws::GoalTracking::within(limits);
+    Ok(laws::GoalTracking { trench: AnyTrench::Hyperbolic(trench), damping: AnyDamping::Constant(damping) })
 }
 
 /// What the robots can do, and their bodies, which must not begin in each other.

@@ -9,6 +9,7 @@ const ROBOTS: usize = 4;
 const POINT: usize = 0;
 const STRONG: usize = 1;
 const WEAK: usize = 2;
+const COMMANDED: usize = 3;
 /// N m of the weak motors.
 const MOST: f64 = 0.6;
 
@@ -52,6 +53,26 @@ fn weak_motors_saturate_and_arrive_all_the_same() {
     assert!(weak.iter().any(|robot| robot.wheels.unwrap().saturated > 0.05), "{weak:?}");
     assert!(largest(&kept, WEAK) > 0.1, "saturation is to be seen");
     assert!(weak.iter().all(|robot| robot.error < 0.01 && robot.wheels.unwrap().saturated < 5.0), "{weak:?}");
+}
+
+/// A robot that takes velocities, and is given the wheel speeds that the same motors would bring about each step, goes the same way: up to an
+/// error of order two, which is that of the ramp between two commands.
+#[test]
+fn a_robot_that_takes_velocities_goes_the_way_of_its_motors() {
+    let apart = |step: &str| {
+        let changes = [("step: 0.002 ", &*format!("step: {step} ")), ("method: rk4 ", "method: exact ")];
+        let (summary, kept) = run(&scenario_with(FILE, &changes));
+        let of = |samples: &Vec<Sample>, robot: usize| {
+            let (torques, speeds) = (&samples[ROBOTS * WEAK + robot], &samples[ROBOTS * COMMANDED + robot]);
+            (torques.position - speeds.position).norm()
+        };
+        assert!(summary.cases[COMMANDED].robots.iter().all(|robot| robot.error < 0.01), "{summary:?}");
+        let all = kept.iter().flat_map(|samples| (0..ROBOTS).map(move |robot| of(samples, robot)));
+        all.fold(0.0, f64::max)
+    };
+    let [coarse, fine] = ["0.01", "0.005"].map(apart);
+    assert!((3.0..5.0).contains(&(coarse / fine)), "{coarse} {fine}");
+    assert!(fine < 0.01, "{fine}");
 }
 
 /// Motors that just have what was asked for never saturate, and the run is that without a bound, bit for bit.
