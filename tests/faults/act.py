@@ -25,6 +25,8 @@ def do(fault: dict, launched: Launched, ears: inject.Ears, changes: Changes) -> 
         return kill_launcher(fault, launched)
     if "kill" in fault:
         return kill(fault, launched)
+    if "parts" in fault:
+        return part(fault, launched)
     if "dies" in fault:
         return dies(fault, launched)
     if "double" in fault:
@@ -233,6 +235,19 @@ def network(fault: dict, launched: Launched) -> tuple[float, float]:
     launched.hosts.change(fault["hosts"], fault["network"])
     time.sleep(fault["for"])
     launched.hosts.change(fault["hosts"], {})
+    return began, time.time()
+
+
+def part(fault: dict, launched: Launched) -> tuple[float, float]:
+    """The hosts of pairs do not reach one another for a while; where a process `dies`, from `before` its death to its next life."""
+    began = time.time()
+    launched.hosts.part(fault["parts"])
+    if "dies" in fault:
+        time.sleep(fault["before"])
+        began, _ = dies(fault, launched)
+    else:
+        time.sleep(fault["for"])
+    launched.hosts.part([])
     return began, time.time()
 
 

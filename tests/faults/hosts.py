@@ -86,10 +86,18 @@ class Hosts:
     def change(self, hosts: list[str], state: dict) -> None:
         """Makes the links of these hosts bad; with nothing, well."""
         for host in hosts:
-            switch = self.of_link[host]
-            switch.stdin.write(json.dumps(state | {"links": [self.namespace(host)]}) + "\n")
-            switch.stdin.flush()
-            switch.stdout.readline()
+            self._tell(self.of_link[host], state | {"links": [self.namespace(host)]})
+
+    def part(self, pairs: list[list[str]]) -> None:
+        """Lets nothing go between the two hosts of each pair, which stay joined to all others; with none, all are joined again."""
+        for switch in self.switches:
+            self._tell(switch, {"parted": [[self.namespace(host) for host in pair] for pair in pairs]})
+
+    @staticmethod
+    def _tell(switch: subprocess.Popen, change: dict) -> None:
+        switch.stdin.write(json.dumps(change) + "\n")
+        switch.stdin.flush()
+        switch.stdout.readline()
 
     def close(self) -> None:
         """Takes all of it down."""

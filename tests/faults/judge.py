@@ -168,7 +168,7 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
 
 def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict: Verdict) -> None:
     """What the assignments must say: with `keeps` they stay as they are, with `joins` they have a robot more, without the robot that `quits`
-    the others close up."""
+    (which led) or `leaves` (which followed) the others close up."""
     began, ended, until = window
     before = bag.assignments.at(began) or {}
     if fault.get("keeps"):
@@ -180,12 +180,14 @@ def structure(bag: Run, fault: dict, window: tuple[float, float, float], verdict
     newcomer = fault.get("joins")
     if newcomer and (newcomer in before or not any(newcomer in made for _, made in bag.assignments.between(began, until))):
         verdict.problems.append(f"{newcomer} did not join: {before} became {bag.assignments.at(until)}")
-    robot = fault.get("quits")
+    robot = fault.get("quits") or fault.get("leaves")
     if robot is None:
         return
     queue, rank, _ = before.get(robot, (0, 0, ""))
-    if rank != 1:
+    if "quits" in fault and rank != 1:
         verdict.problems.append(f"{robot} did not lead before: {before}")
+    if "leaves" in fault and rank < 2:
+        verdict.problems.append(f"{robot} did not follow before: {before}")
     gone = next(((at, made) for at, made in bag.assignments.between(began, ended) if robot not in made), None)
     if gone is None or gone[0] - began > QUIT:
         verdict.problems.append(f"{robot} had not quit the assignment after {QUIT} s: {gone}")

@@ -349,6 +349,20 @@ class Judged(unittest.TestCase):
         self.bag.assignments.values[1] = behind
         self.assertIn("robot4 followed 'robot1' before, 'robot1' meanwhile", self.problems({"retargets": "robot4"}))
 
+    def test_those_behind_a_robot_that_leaves_close_up_and_it_returns(self):
+        chain = [{"robot1": (0, 1, ""), "robot4": (0, 2, "robot1"), "robot2": (0, 3, "robot4")}, {"robot1": (0, 1, ""), "robot2": (0, 2, "robot1")}]
+        for at, made in ((T0, chain[0]), (BEGAN + 0.5, chain[1]), (ENDED + 2.0, chain[0])):
+            self.bag.assignments.add(at, made)
+        self.assertEqual(self.problems({"leaves": "robot4"}), "")
+        self.assertIn("robot4 did not lead before", self.problems({"quits": "robot4"}))
+        self.assertIn("robot1 did not follow before", self.problems({"leaves": "robot1"}))
+        self.bag.assignments.values[1] = {"robot1": (0, 1, ""), "robot2": (0, 2, "")}
+        self.assertIn("they do not follow one another", self.problems({"leaves": "robot4"}))
+        self.bag.assignments.values[1] = chain[0]
+        self.assertIn("robot4 had not quit the assignment after 3.0 s", self.problems({"leaves": "robot4"}))
+        self.bag.assignments.values = [chain[0], chain[1], chain[1]]
+        self.assertIn("robot4 has no rank again", self.problems({"leaves": "robot4"}))
+
 
 if __name__ == "__main__":
     unittest.main()

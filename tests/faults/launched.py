@@ -107,6 +107,8 @@ class Launched:
         # Names of files in shared memory, when all had ended.
         self.left: list[str] = []
         self.clocks = run.get("clocks", False)
+        # Arguments of what runs on a robot's own host.
+        self.of_robots = run.get("of_robots", {})
         self.own_bag = folder / "own-bag"
         self.tap, self.spoken = folder / "line.tap", folder / "spoken"
         try:
@@ -184,7 +186,7 @@ class Launched:
                 robot, "bag_recorder", "--ros-args", "-r", "__node:=recorder", "-r", f"__ns:=/{robot}", "-p", f"output:={self.spoken / robot}",
                 "-p", f"topics:=['/{robot}/cmd_vel:geometry_msgs/msg/TwistStamped']", true_clock=True,
             )
-        self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]")
+        self.launch(robot, "robot_host", robot=robot, robots=f"[{', '.join(ROBOTS)}]", **self.of_robots)
 
     def _look(self) -> None:
         """A small camera on the base station, and somebody on the radio's host who records it."""

@@ -3,7 +3,7 @@
 usage: switch.py SEED NAMESPACE:INTERFACE:ADDRESS/LENGTH ...
 
 Makes the interface in each namespace, says "ready", and then carries frames until its standard input ends. Each line there is
-JSON: the namespaces whose links change and how they are from then on, both ways or one:
+JSON: the namespaces whose links change and how they are from then on, both ways or one, or pairs of them:
 
     {"links": ["a"], "cut": "both"}                                      "to" the host, "from" it, or "both"
     {"links": ["a", "b"], "loss": 0.3}                                   share of frames lost, each way
@@ -11,6 +11,8 @@ JSON: the namespaces whose links change and how they are from then on, both ways
     {"links": ["a"], "rate": 256000}                                     bit/s; what is marked as urgent goes first, what is marked
                                                                          as less (DSCP CS1) last, as Wi-Fi has it
     {"links": ["a"]}                                                     well again
+    {"parted": [["a", "b"], ["a", "c"]]}                                 nothing goes between these two, either way; all others stay joined
+    {"parted": []}                                                       well again
 
 The kernel here may lack netem; a TAP interface and a loop do all of it and repeat by their seed.
 """
@@ -116,6 +118,7 @@ class Switch:
         self.agenda: list = []
         self.ports: dict[int, str] = {}
         self.behind: dict[bytes, str] = {}
+        self.parted: set[frozenset[str]] = set()
         self.to: dict[str, Way] = {}
         self.away: dict[str, Way] = {}
         chance = random.Random(seed)
@@ -133,12 +136,14 @@ class Switch:
         """To whom it is for, or to all others."""
         known = self.behind.get(frame[:6])
         for name, way in self.to.items():
-            if name != source and known in (None, name):
+            if name != source and known in (None, name) and frozenset((source, name)) not in self.parted:
                 way.send(frame, now)
 
     def set(self, change: dict) -> None:
         """Makes links bad or well."""
-        for name in change["links"]:
+        if "parted" in change:
+            self.parted = {frozenset(pair) for pair in change["parted"]}
+        for name in change.get("links", []):
             self.to[name].state = self.away[name].state = change
             self.to[name].cut = change.get("cut") in ("to", "both")
             self.away[name].cut = change.get("cut") in ("from", "both")

@@ -14,7 +14,7 @@ HEAD = """# Faults
 What `scripts/faults` did to a running formation, and what came of it. Each row is one fault of
 [the matrix](../tests/faults/matrix.yaml), met by four robots on their way in the square ([config/formations/square_slow.yaml](../config/formations/square_slow.yaml)),
 as processes in real time on the simulated test bed, judged by ground truth, diagnostics and the bytes on the serial line (tests/faults/judge.py, which judge_test.py judges). Some
-runs are half as fast ([square_slower.yaml](../config/formations/square_slower.yaml)), two are a column behind a moving target. Times are
+runs are half as fast ([square_slower.yaml](../config/formations/square_slower.yaml)), three are a column behind a moving target. Times are
 the worst of all seeds that were run:
 
 - no contact from the start of the run to its end; no robot drives or turns on information older than 0.25 s, a frame, and what braking takes from its speed of then; the
