@@ -33,7 +33,8 @@ def conduct(run: dict, binaries: Path, folder: Path, seed: int) -> list[verdict.
             inject.Ears(first.log).wait_for_start(PATIENCE)
         finally:
             first.kill()
-        shutil.rmtree(folder / "bag", ignore_errors=True)
+        for recorded in ("bag", "own-bag"):
+            shutil.rmtree(folder / recorded, ignore_errors=True)
         shutil.rmtree(folder / "launch")
     launched = Launched(run, binaries, folder, seed)
     ears = inject.Ears(launched.log)
