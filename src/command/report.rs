@@ -16,6 +16,8 @@ use trench_msgs::diagnostic_msgs::DiagnosticArray;
 
 /// Between two messages in which nothing is new, s.
 const PERIOD: f64 = 1.0;
+/// How long after its last word it ends, s: readers lose what they have not read yet when its writer goes.
+const LINGER: f64 = 0.15;
 /// A line that is longer than any report, in bytes.
 const LONGEST: usize = 65_536;
 
@@ -53,6 +55,7 @@ fn build(context: &NodeContext, parameters: &Parameters, _: &dyn Files) -> Resul
         statuses: Statuses::new(name, parameters.str("file")?),
         unread: Vec::new(),
         next: Steady::default(),
+        ends: None,
     }))
 }
 
@@ -62,6 +65,8 @@ struct Teller {
     /// The beginning of a line.
     unread: Vec<u8>,
     next: Steady,
+    /// When it ends, once the launcher is gone.
+    ends: Option<Steady>,
 }
 
 impl Teller {
@@ -91,11 +96,14 @@ impl NodeCore for Teller {
             Event::Bytes { data, .. } => self.read(at.steady, data),
             Event::StreamState { open: false, .. } => {
                 self.statuses.launcher_is_gone();
-                sink.exit(0);
+                self.ends = Some(at.steady.plus_seconds(LINGER));
                 true
             }
             _ => false,
         };
+        if self.ends.is_some_and(|ends| at.steady >= ends) {
+            sink.exit(0);
+        }
         if is_news || at.steady >= self.next {
             self.next = at.steady.plus_seconds(PERIOD);
             sink.publish(0, &self.statuses.message(at));
@@ -103,7 +111,7 @@ impl NodeCore for Teller {
     }
 
     fn next_wakeup(&self) -> Option<Steady> {
-        Some(self.next)
+        self.ends.into_iter().chain([self.next]).min()
     }
 
     fn set_parameters(&mut self, _: &Parameters) -> Result<(), ConfigError> {
@@ -114,7 +122,7 @@ impl NodeCore for Teller {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_core::Outbox;
+    use trench_core::{Action, Outbox};
     use trench_launch::Severity;
 
     fn line(label: &str, severity: Severity, lasts: bool, text: &str) -> String {
@@ -133,7 +141,13 @@ mod tests {
 
     fn core() -> Teller {
         let statuses = Statuses::new("/launch".to_owned(), "a.launch.yaml");
-        Teller { interface: Interface::default(), statuses, unread: Vec::new(), next: Steady(1_000_000_000) }
+        Teller {
+            interface: Interface::default(),
+            statuses,
+            unread: Vec::new(),
+            next: Steady(1_000_000_000),
+            ends: None,
+        }
     }
 
     #[test]
@@ -183,5 +197,9 @@ mod tests {
         said(&mut core, 0, Event::Bytes { stream: 0, data: line("a", Severity::Fine, true, "runs").as_bytes() });
         let told = ["0 /a: process: runs", "2 /launch: processes: the launcher was killed: its processes end"];
         assert_eq!(said(&mut core, 10, Event::StreamState { stream: 0, open: false }), told);
+        assert_eq!(core.next_wakeup(), Some(Steady(160_000_000)));
+        let mut out = Outbox::default();
+        core.handle(Times { steady: Steady(160_000_000), ..Times::default() }, Event::Wakeup, &mut out);
+        assert!(matches!(out.actions[..], [Action::Exit(0)]), "{:?}", out.actions);
     }
 }

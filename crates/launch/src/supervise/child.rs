@@ -28,10 +28,12 @@ impl Running {
     ) -> io::Result<Self> {
         let mut command = command(process);
         command.stdin(Stdio::null());
+        die_with_parent(&mut command);
         Self::spawn(command, process, member, console, Screen::Error, events, alive)
     }
 
-    /// As [`Self::start`], with a pipe to its standard input; what it says goes to log files alone.
+    /// As [`Self::start`], with a pipe to its standard input; what it says goes to log files alone. The end of the pipe tells it that
+    /// the launcher has died: a signal could come before.
     pub(super) fn start_fed(
         process: &Process,
         member: usize,
@@ -55,7 +57,6 @@ impl Running {
         events: &Sender<Event>,
         alive: &Sender<()>,
     ) -> io::Result<Self> {
-        die_with_parent(&mut command);
         let mut child = command.spawn()?;
         let last_words = LastWords::default();
         let watched = forward_output(process, &mut child, &last_words, console, errors, alive).and_then(|()| {

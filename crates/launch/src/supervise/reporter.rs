@@ -21,6 +21,8 @@ const RETRY: Duration = Duration::from_secs(1);
 const LONGEST_RETRY: Duration = Duration::from_secs(30);
 /// Between two tries to say what its pipe did not take.
 const AGAIN: Duration = Duration::from_millis(200);
+/// How long after it was told something it is told to end: readers lose what they have not read yet when its writer goes.
+const LINGER: Duration = Duration::from_millis(150);
 /// How long the end of the run waits for it once all others have ended: it was told to end when they were.
 const LEAVE: Duration = Duration::from_secs(1);
 
@@ -45,6 +47,10 @@ pub(super) struct Reports<'a> {
     /// When it is to be started, or to be told the rest.
     next: Option<Instant>,
     retry: Duration,
+    /// When it was told something last.
+    told: Instant,
+    /// Whether it is to end, and was told to.
+    is_ending: bool,
     is_told_to_end: bool,
 }
 
@@ -58,6 +64,8 @@ impl<'a> Reports<'a> {
             child: None,
             next,
             retry: RETRY,
+            told: now,
+            is_ending: false,
             is_told_to_end: false,
         }
     }
@@ -71,6 +79,9 @@ impl<'a> Reports<'a> {
     pub(super) fn act(&mut self, now: Instant, console: &Console, events: &Sender<Event>, alive: &Sender<()>) {
         if self.next.take_if(|at| *at <= now).is_none() {
             return;
+        }
+        if self.is_ending {
+            return self.tell_to_end();
         }
         if self.child.is_some() {
             return self.tell_rest(now);
@@ -110,6 +121,7 @@ impl<'a> Reports<'a> {
             is_full = is_full || pipe.write_all(line.as_bytes()).is_err();
             is_full
         });
+        self.told = now;
         self.next = is_full.then_some(now + AGAIN);
     }
 
@@ -118,7 +130,7 @@ impl<'a> Reports<'a> {
         let Some((running, _)) = self.child.take() else { return };
         self.next = None;
         let status = running.reap();
-        if self.is_told_to_end {
+        if self.is_ending {
             return;
         }
         let code = status.as_ref().ok().and_then(std::process::ExitStatus::code);
@@ -136,19 +148,28 @@ impl<'a> Reports<'a> {
         self.retry = (2 * self.retry).min(LONGEST_RETRY);
     }
 
-    /// Tells it to end. It still says what it was told before.
+    /// Has it end, once it has said what it was told before.
     pub(super) fn end(&mut self) {
+        if !std::mem::replace(&mut self.is_ending, true) {
+            self.next = self.child.is_some().then(|| self.told + LINGER);
+        }
+    }
+
+    fn tell_to_end(&mut self) {
         if !std::mem::replace(&mut self.is_told_to_end, true)
             && let Some((running, _)) = &self.child
         {
             running.signal(Signal::INT);
         }
-        self.next = None;
     }
 
     /// Sees to its end, once all others have ended.
     pub(super) fn close(mut self, events: &Receiver<Event>) {
         self.end();
+        if let Some(at) = self.next {
+            std::thread::sleep(at.saturating_duration_since(Instant::now()));
+        }
+        self.tell_to_end();
         let Some((running, _)) = &self.child else { return };
         let deadline = Instant::now() + LEAVE;
         loop {
