@@ -153,6 +153,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         self.look_for_links();
         if self.scenario.encroaching.tells_places() {
             self.seen_places.copy_from_slice(&self.places);
+        } else if self.scenario.remedies.is_some() {
+            // Nobody has chosen a place: each is where it is, for those who look for one.
+            let seen = self.seen_places.iter_mut().zip(&self.seen);
+            seen.for_each(|(place, robot)| *place = robot.position);
         }
         let moves = self.scenario.moves();
         if moves {
