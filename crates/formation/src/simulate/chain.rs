@@ -222,12 +222,14 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         let mut around = view.around(0);
         first.sense(&around)?;
         let alike = scenario.encroaching.robot_radius().is_none();
+        let mut ahead: &Agent<T> = first;
         for (agent, index) in others.iter_mut().zip(1..) {
             view.stand_at(&mut around, index);
             match alike {
-                true => agent.sense_as(first, &around),
-                false => agent.sense(&around)?,
+                true => agent.sense_as(ahead, &around),
+                false => agent.sense_behind(ahead, &around)?,
             }
+            ahead = agent;
         }
         Ok(())
     }
