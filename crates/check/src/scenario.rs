@@ -193,7 +193,7 @@ fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
     let curve = Curve::new(&task.segment, false, false).ok();
     let room = curve.map(|curve| room(subject, &curve, &[(0.0, curve.length())], robots.len(), radii.rho_hat));
-    room.into_iter().chain([connection(subject, radii, robots)]).collect()
+    room.into_iter().chain([connection(subject, radii, robots, false)]).collect()
 }
 
 fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec<Verdict> {
@@ -205,7 +205,8 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Vec
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
         room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
     });
-    room.into_iter().chain([connection(subject, radii, &task.robots)]).collect()
+    let recovers = task.options.recovery.is_some();
+    room.into_iter().chain([connection(subject, radii, &task.robots, recovers)]).collect()
 }
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
@@ -252,13 +253,19 @@ fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) 
     Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
 }
 
-/// Whether every robot begins within reach of its leader.
-fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
+/// Whether every robot begins within reach of its leader, or comes to it by itself.
+fn connection(subject: &str, radii: &Radii, robots: &[PointState], recovers: bool) -> Verdict {
     let distance = |pair: &[PointState]| (pair[1].position - pair[0].position).norm();
     let longest = robots.windows(2).map(distance).fold(0.0, f64::max);
     let lost = robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
     let limit = number(radii.rho_bar);
+    let too_near = robots.windows(2).any(|pair| distance(pair) < radii.rho_underbar);
     let finding = match lost {
+        Some(index) if recovers && !too_near => format!(
+            "r{} begins {} m from its leader, beyond the {limit} m that links reach, and comes to it along the segment (Remark 6.2.1)",
+            index + 2,
+            number(distance(&robots[index..index + 2]))
+        ),
         None => format!("no robot begins more than {} m from its leader, links reach {limit} m", number(longest)),
         Some(index) => format!(
             "r{} begins {} m from its leader, but links reach {limit} m: move it nearer, or order the chain anew",
@@ -266,5 +273,6 @@ fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
             number(distance(&robots[index..index + 2]))
         ),
     };
-    Verdict::new("connection", subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
+    let holds = lost.is_none() || (recovers && !too_near);
+    Verdict::new("connection", subject, holds, finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
 }
