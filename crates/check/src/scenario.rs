@@ -198,7 +198,7 @@ fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
     let room = room(subject, &task.curve, &[task.curve.domain()], robots.len(), radii.rho_hat);
     let goal = goal(subject, &task.curve, task.chain.team_goal, radii, robots.len());
-    [room, connection(subject, radii, robots)].into_iter().chain(goal).collect()
+    [room, connection(subject, radii, robots, false)].into_iter().chain(goal).collect()
 }
 
 fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
@@ -210,9 +210,10 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, durati
         let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
         room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
     });
+    let recovers = task.options.recovery.is_some();
     let later = room_on_the_way(subject, task, duration);
     let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));
-    room.into_iter().chain(later).chain([connection(subject, radii, &task.robots)]).chain(goal).collect()
+    room.into_iter().chain(later).chain([connection(subject, radii, &task.robots, recovers)]).chain(goal).collect()
 }
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.
@@ -294,13 +295,19 @@ fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) 
     Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
 }
 
-/// Whether every robot begins within reach of its leader.
-fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
+/// Whether every robot begins within reach of its leader, or comes to it by itself.
+fn connection(subject: &str, radii: &Radii, robots: &[PointState], recovers: bool) -> Verdict {
     let distance = |pair: &[PointState]| (pair[1].position - pair[0].position).norm();
     let longest = robots.windows(2).map(distance).fold(0.0, f64::max);
     let lost = robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
     let limit = number(radii.rho_bar);
+    let too_near = robots.windows(2).any(|pair| distance(pair) < radii.rho_underbar);
     let finding = match lost {
+        Some(index) if recovers && !too_near => format!(
+            "r{} begins {} m from its leader, beyond the {limit} m that links reach, and comes to it along the segment (Remark 6.2.1)",
+            index + 2,
+            number(distance(&robots[index..index + 2]))
+        ),
         None => format!("no robot begins more than {} m from its leader, links reach {limit} m", number(longest)),
         Some(index) => format!(
             "r{} begins {} m from its leader, but links reach {limit} m: move it nearer, or order the chain anew",
@@ -308,5 +315,6 @@ fn connection(subject: &str, radii: &Radii, robots: &[PointState]) -> Verdict {
             number(distance(&robots[index..index + 2]))
         ),
     };
-    Verdict::new("connection", subject, lost.is_none(), finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
+    let holds = lost.is_none() || (recovers && !too_near);
+    Verdict::new("connection", subject, holds, finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
 }

@@ -187,6 +187,8 @@ fn chains_that_do_not_fit() {
         &[("connection", "r10 begins 31.79")],
     );
     check("6.5.yaml", "{position: [26.0026, 29.7094]", "{position: [-500.0, 529.7]", &[("connection", "r2 begins")]);
+    // A chain that recovers may begin so; without recovery it may not.
+    check("6.2.1_lost_chain.yaml", "recovery: {speed: 1.5}", "# ", &[("connection", "r2 begins 68.01")]);
     check("7.10.yaml", "damping: 2.0", "damping: 1.0", &[("damping", "the chain whips")]);
     check(
         "9.2_bounded.yaml",

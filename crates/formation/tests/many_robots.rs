@@ -7,11 +7,12 @@ mod threads;
 use chain::chain_of_7_10;
 use nalgebra::Vector2;
 use threads::Threads;
+use trench_formation::agent::{Agent, Leader, Surroundings};
 use trench_formation::avoidance::WatchSettings;
 use trench_formation::curve::{Curve, CurveShape};
-use trench_formation::hull::{Obstacle, Shape};
+use trench_formation::hull::{Obstacle, Shape, combine};
 use trench_formation::kinematics::PointState;
-use trench_formation::laws::Capability;
+use trench_formation::laws::{Capability, RigidMotion};
 use trench_formation::safety::Stopping;
 use trench_formation::simulate::{ChainScenario, ChainSimulation, Encroaching, Options, Remedies};
 use trench_formation::trench::Hyperbolic;
@@ -107,4 +108,55 @@ fn alone_or_side_by_side() {
     let side_by_side = run(false, 1);
     assert_eq!(side_by_side, run(true, 1));
     assert_eq!(side_by_side, run(false, 2));
+}
+
+/// Where robots encroach, each looks into what the one ahead has found: it finds what it would find alone, at rest and under way.
+#[test]
+fn robots_that_seek_one_after_the_other_find_what_each_finds_alone() {
+    let place = |rank: u32| 70.0 - 1.7 * f64::from(rank);
+    let start = |rank: u32| PointState {
+        position: Vector2::new(place(rank), place(rank) + 0.4 * f64::from(rank % 5)),
+        velocity: Vector2::new(5.0 - 0.1 * f64::from(rank), 2.0),
+    };
+    let scenario = ChainScenario {
+        robots: (0..40).map(start).collect(),
+        encroaching: Encroaching::ObstaclesAndRobots(0.3),
+        ..many_discs()
+    };
+    let apparent = combine(&scenario.obstacles, scenario.clearance).unwrap();
+    let mut simulation = ChainSimulation::new(scenario.clone()).unwrap();
+    let mut different = 0;
+    for _ in 0..3 {
+        let robots = simulation.robots().to_vec();
+        simulation.step().unwrap();
+        for index in 0..robots.len() {
+            let leader = index.checked_sub(1);
+            let around = Surroundings {
+                time: 0.0,
+                curve: &scenario.segment,
+                map_from_segment: nalgebra::Isometry2::identity(),
+                motion: RigidMotion::at_rest(),
+                goal: None,
+                leader: leader.map(|leader| Leader { state: robots[leader], deviation: f64::INFINITY }),
+                ahead: &robots[..leader.unwrap_or(0)],
+                places: &[],
+                behind: robots.len() - index - 1,
+                real: &scenario.obstacles,
+                apparent: &apparent,
+                velocities: &[],
+                clear: 0.0,
+            };
+            let mut alone = Agent::new(scenario.agent());
+            alone.sense(&around).unwrap();
+            assert_eq!(alone.fragments(), simulation.fragments(index + 1), "r{}", index + 1);
+            different +=
+                usize::from(leader.is_some_and(|leader| simulation.fragments(leader + 1) != alone.fragments()));
+        }
+    }
+    assert!(different > 60, "what is left changes with the rank: {different}");
+}
+
+/// 7.10 among its discs, a tick each step.
+fn many_discs() -> ChainScenario<Hyperbolic> {
+    ChainScenario { clearance: 1.0, step: 0.01, steps_per_tick: 1, ..chain_of_7_10(5.0) }
 }

@@ -46,7 +46,8 @@ impl<T: Trench> Agent<T> {
         let asked = match &self.settings.remedies {
             Some(remedies) => {
                 let (potential, zoning) = (&self.settings.potential, &self.settings.zoning);
-                let sight = Sight { remedies, potential, zoning, around, moment, step };
+                let fragments = self.fragments.intervals();
+                let sight = Sight { remedies, potential, zoning, fragments, around, moment, step };
                 self.remedy.get_or_insert_default().update(&sight, robot, drawn)
             }
             None => Asked::Attraction,

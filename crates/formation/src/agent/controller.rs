@@ -90,7 +90,14 @@ impl<T: Trench> Agent<T> {
     /// # Errors
     /// Robots ahead whose position is not finite, where robots encroach: the fragments stay as they were.
     pub fn sense(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
-        self.find_fragments(around)?;
+        self.find_fragments(around, None)?;
+        self.carry_on(around);
+        Ok(())
+    }
+
+    /// [`Self::sense`] where robots encroach, and the one ahead has sensed just now: the same, sooner.
+    pub(crate) fn sense_behind(&mut self, teammate: &Self, around: &Surroundings<'_>) -> Result<(), HullError> {
+        self.find_fragments(around, teammate.encroachers.as_deref())?;
         self.carry_on(around);
         Ok(())
     }

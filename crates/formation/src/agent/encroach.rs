@@ -8,6 +8,8 @@ use crate::seek::{Fragments, apparent_obstacles, apparent_obstacles_apart};
 use crate::trench::Trench;
 use nalgebra::Isometry2;
 
+/// As many hulls about the same place of a list are looked at for one that is known: lists hardly change.
+const ABOUT: usize = 8;
 /// Fragments are sought anew once a robot on the segment has moved this far, m.
 const MOVED: f64 = 0.005;
 
@@ -30,13 +32,41 @@ impl Encroachers {
     }
 }
 
+/// Hulls that are known, gone through in order.
+struct Known<'a> {
+    hulls: &'a [(Shape, Vec<Interval>)],
+    next: usize,
+}
+
+impl<'a> Known<'a> {
+    /// Of a robot's fragments, if the segment is where it was then.
+    fn of(known: Option<&'a Encroachers>, map_from_segment: &Isometry2<f64>) -> Self {
+        let known = known.filter(|known| known.map_from_segment == *map_from_segment);
+        Self { hulls: known.map_or(&[], |known| &known.hulls), next: 0 }
+    }
+
+    /// What a hull takes of the segment, if it is known. The next one is looked for behind it.
+    fn taken_by(&mut self, shape: &Shape) -> Option<&'a Vec<Interval>> {
+        let from = self.next.saturating_sub(ABOUT / 2).min(self.hulls.len());
+        let about = &self.hulls[from..self.hulls.len().min(from + ABOUT)];
+        let found = about.iter().position(|(other, _)| other == shape);
+        self.next = found.map_or(self.next, |found| from + found) + 1;
+        found.map(|found| &about[found].1)
+    }
+}
+
 /// Whether a robot has hardly moved.
 pub(super) fn is_near(then: Vector2<f64>, now: Vector2<f64>) -> bool {
     (now - then).norm_squared() < MOVED * MOVED
 }
 
 impl<T: Trench> Agent<T> {
-    pub(super) fn find_fragments(&mut self, around: &Surroundings<'_>) -> Result<(), HullError> {
+    /// `teammate` is the robot ahead of it, if it has sought already: most hulls are those that it found.
+    pub(super) fn find_fragments(
+        &mut self,
+        around: &Surroundings<'_>,
+        teammate: Option<&Encroachers>,
+    ) -> Result<(), HullError> {
         let encroaching = self.settings.encroaching;
         let Some(ahead) = encroaching.robots_ahead() else {
             self.fragments = match encroaching {
@@ -46,7 +76,7 @@ impl<T: Trench> Agent<T> {
             return Ok(());
         };
         let robots = if ahead.places { self.places_held(around) } else { self.robots_there(around, ahead.radius) };
-        self.find_among(around, robots, ahead)
+        self.find_among(around, robots, ahead, teammate)
     }
 
     fn find_among(
@@ -54,24 +84,25 @@ impl<T: Trench> Agent<T> {
         around: &Surroundings<'_>,
         robots: Vec<Vector2<f64>>,
         ahead: RobotsAhead,
+        teammate: Option<&Encroachers>,
     ) -> Result<(), HullError> {
         if self.encroachers.as_ref().is_some_and(|known| known.still_hold(around, &robots)) {
             return Ok(());
         }
         let all = self.merge(around, &robots, ahead)?;
         let (map_from_segment, real) = (around.map_from_segment, around.real.to_vec());
-        let known = self.encroachers.take().filter(|known| known.map_from_segment == map_from_segment);
-        let mut known = known.map_or_else(Vec::new, |known| known.hulls);
+        let mut own = Known::of(self.encroachers.as_deref(), &map_from_segment);
+        let mut others = Known::of(teammate, &map_from_segment);
         let (segment, whole) = (around.moment(0.0).segment, around.curve.domain());
-        let taken = |ApparentObstacle { shape, .. }: ApparentObstacle| match known
-            .iter()
-            .position(|(other, _)| *other == shape)
-        {
-            Some(index) => known.swap_remove(index),
-            None => {
-                let intervals = encroached(&segment, whole, &[shape.outline()], self.settings.potential.cut());
-                (shape, intervals)
-            }
+        let taken = |ApparentObstacle { shape, .. }: ApparentObstacle| {
+            // Both lists are gone through, whichever knows the hull.
+            let known = (own.taken_by(&shape), others.taken_by(&shape));
+            let intervals = known
+                .0
+                .or(known.1)
+                .cloned()
+                .unwrap_or_else(|| encroached(&segment, whole, &[shape.outline()], self.settings.potential.cut()));
+            (shape, intervals)
         };
         let hulls: Vec<(Shape, Vec<Interval>)> = all.into_iter().map(taken).collect();
         let fragments = Fragments::beside(whole, hulls.iter().flat_map(|hull| &hull.1), self.settings.seeking.room);

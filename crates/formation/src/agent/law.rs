@@ -197,18 +197,29 @@ impl<T: Trench> Agent<T> {
             sum.forces.sliding = Attraction::sliding(sum.forces.trench, direction, met.0.tangent);
         }
         sum.met = Some(point);
+        let (target, sliding) = (Some(point - robot.position), robot_seen.velocity);
         let push = Push::of_leader(&settings.zoning, robot.position, leader.position);
-        sum.account(By::Leader, push, push.force, leader_seen.velocity);
+        // The law has the leader's push as it is.
+        let repels = push.force.dot(&(leader.position - robot.position)) < 0.0;
+        let (_, felt) = self.sidestepped(push, target.filter(|_| repels), None);
+        if felt != push.force {
+            sum.steered.acceleration += felt - push.force;
+            sum.steered.lyapunov_rate += (felt - push.force).dot(&sliding);
+        }
+        sum.account(By::Leader, push, felt, leader_seen.velocity);
         let frame = moment.motion.at(robot.position);
         for other in around.ahead {
             let there = other.coasted(moment.since);
             let push = Push::of_robot_ahead(&settings.zoning, robot.position, there.position);
-            sum.add(By::Robot, push, there.velocity - frame.velocity);
+            let turned = self.sidestepped(push, target, None);
+            sum.add_turned(By::Robot, turned, there.velocity - frame.velocity, sliding);
         }
         for index in self.obstacles_near(around, moment.since, robot.position) {
-            let approach = self.approach(around, moment.since, index, robot.position);
-            let push = Push::of_obstacle(&settings.potential, approach);
-            sum.add(By::Obstacle, push, around.velocity(index) - frame.velocity);
+            let push =
+                Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot.position));
+            let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since);
+            let turned = self.sidestepped(push, target, Some(middle - robot.position));
+            sum.add_turned(By::Obstacle, turned, around.velocity(index) - frame.velocity, sliding);
         }
         sum.steered.acceleration += frame.acceleration;
         sum

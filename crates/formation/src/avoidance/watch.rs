@@ -12,7 +12,8 @@ pub struct WatchSettings {
     pub arrived: f64,
 }
 
-/// Memory of one robot's progress. Forces are not looked at: where they jump they never cancel, and a robot bounces about the
+/// Memory of one robot's progress. Who is near to what draws it has arrived; whether zones let it stay there is asked of another watch, with no
+/// such point. Forces are not looked at: where they jump they never cancel, and a robot bounces about the
 /// place where they change sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Watch {

@@ -153,6 +153,10 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         self.look_for_links();
         if self.scenario.encroaching.tells_places() {
             self.seen_places.copy_from_slice(&self.places);
+        } else if self.scenario.remedies.is_some() {
+            // Nobody has chosen a place: each is where it is, for those who look for one.
+            let seen = self.seen_places.iter_mut().zip(&self.seen);
+            seen.for_each(|(place, robot)| *place = robot.position);
         }
         let moves = self.scenario.moves();
         if moves {
@@ -218,12 +222,14 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         let mut around = view.around(0);
         first.sense(&around)?;
         let alike = scenario.encroaching.robot_radius().is_none();
+        let mut ahead: &Agent<T> = first;
         for (agent, index) in others.iter_mut().zip(1..) {
             view.stand_at(&mut around, index);
             match alike {
-                true => agent.sense_as(first, &around),
-                false => agent.sense(&around)?,
+                true => agent.sense_as(ahead, &around),
+                false => agent.sense_behind(ahead, &around)?,
             }
+            ahead = agent;
         }
         Ok(())
     }

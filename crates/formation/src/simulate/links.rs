@@ -33,12 +33,12 @@ impl Links {
         if self.now == self.unheard {
             return;
         }
-        let new = self.now.iter().filter(|index| !self.unheard.contains(index));
+        let new = self.now.iter().filter(|index| self.unheard.binary_search(index).is_err());
         let lost = new.map(|&robot| {
             let event = if far(&robots[robot - 1..=robot], reach) { QueueEvent::Lost } else { QueueEvent::Retargets };
             QueueChange { time, robot, event }
         });
-        let whole = self.unheard.iter().filter(|index| !self.now.contains(index));
+        let whole = self.unheard.iter().filter(|index| self.now.binary_search(index).is_err());
         let whole = whole.map(|&robot| QueueChange { time, robot, event: QueueEvent::Follows });
         self.changes.extend(lost.chain(whole));
         core::mem::swap(&mut self.now, &mut self.unheard);

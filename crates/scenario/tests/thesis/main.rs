@@ -5,6 +5,7 @@ mod bounds;
 mod fragments;
 mod hilare;
 mod links;
+mod minima;
 mod open;
 mod queue;
 mod ranks;

@@ -7,6 +7,16 @@ use crate::hull::Outline;
 
 impl Remedy {
     pub(super) fn choose(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) {
+        self.choose_way(sight, robot, drawn);
+        if self.state == State::Free
+            && self.is_trapped(sight, robot, drawn)
+            && let Some(led) = sight.led_to_place(robot)
+        {
+            self.state = led;
+        }
+    }
+
+    fn choose_way(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) {
         let gap = |index: usize| sight.approach(index, robot).gap;
         let nearest = (0..sight.around.apparent.len()).map(|index| (gap(index), index));
         let target = drawn.point();
@@ -14,7 +24,7 @@ impl Remedy {
         let crowded = sight.teammate_gap(robot) < settings.radius;
         let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             if self.is_caught(sight, robot, target, (None, crowded)) {
-                self.state = sight.led(robot, target);
+                self.state = sight.led(robot, drawn);
             }
             return;
         };
@@ -39,7 +49,7 @@ impl Remedy {
                     let sunk = guard.protrusion(&outline, seen).max(0.0);
                     State::Guarded { obstacle: obstacle.id, guard, sunk }
                 }
-                None => sight.led(robot, target),
+                None => sight.led(robot, drawn),
             };
         }
     }

@@ -18,6 +18,8 @@ pub(super) struct Remedy {
     watch: Watch,
     /// In the frame of an obstacle that pushes the robot along, away from what draws it.
     drift: Watch,
+    /// Rest in a zone where nobody may stay, on the segment or off it.
+    rest: Watch,
     state: State,
 }
 
@@ -31,8 +33,9 @@ enum State {
     Suspended { until: f64, within: Option<u32> },
     /// Inside an obstacle's hull, after a `carrot` that goes along the way ahead.
     Escaping { obstacle: u32, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
-    /// Round teammates ahead, after a `carrot` that goes along the way ahead, until a time at the latest, s.
-    Led { until: f64, carrot: Vector2<f64>, way: Vec<Vector2<f64>> },
+    /// Round teammates ahead, after a `carrot` that goes along the way ahead, until a time at the latest, s; to a place that the robot has
+    /// chosen on its `own`, or to what draws it.
+    Led { until: f64, carrot: Vector2<f64>, way: Vec<Vector2<f64>>, own: bool },
 }
 
 /// What draws a robot that may be caught.
@@ -129,6 +132,21 @@ impl Remedy {
     fn restart(&mut self) {
         self.watch.restart();
         self.drift.restart();
+        self.rest.restart();
+    }
+
+    /// Whether the robot rests where zoning holds it, within somebody's zone 2 on the segment, or in the zone 4 of a leader that has arrived: the local minima
+    /// of 6.4. Nearer than the watch's radius to the neutral zone it is as good as there.
+    fn is_trapped(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, drawn: Drawn) -> bool {
+        let Drawn::To(foot) = drawn else { return false };
+        let watch = &sight.remedies.watch;
+        let arrived = (foot.point - robot).norm() <= watch.arrived;
+        let held = (arrived && sight.teammate_gap(robot) < -watch.radius) || sight.leader_gap(robot) > watch.radius;
+        let rests = self.rest.is_caught(watch, sight.time(), robot, f64::INFINITY, held);
+        if rests {
+            self.rest.restart();
+        }
+        rests
     }
 
     /// Whether a robot that something pushes away, if `repelled`, stays where it is, or before an obstacle (by its index) that drives it
@@ -219,10 +237,10 @@ impl Remedy {
                     }
                 }
             }
-            State::Led { until, carrot, way } => {
+            State::Led { until, carrot, way, own } => {
                 let there = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
                 // Another place was chosen meanwhile, or the segment has gone on.
-                let astray = (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
+                let astray = !*own && (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
                 if there || astray || sight.time() >= *until {
                     *self = Self::default();
                 } else {
@@ -236,7 +254,7 @@ impl Remedy {
         }
         if held {
             self.restart();
-            self.state = sight.led(robot, target);
+            self.state = sight.led(robot, drawn);
         }
         match &self.state {
             State::Free | State::Guarded { .. } => Asked::Attraction,

@@ -1,14 +1,17 @@
 //! What remedies look at, and ways that are free.
-use super::State;
+use super::{Drawn, State};
 use crate::Vector2;
 use crate::agent::surroundings::Moment;
 use crate::agent::{Remedies, Surroundings};
 use crate::avoidance::way_round;
+use crate::curve::Interval;
 use crate::hull::Approach;
 use crate::zoning::{ObstaclePotential, Zone, Zoning};
 
 /// Pieces of a straight line that are looked at.
 const LOOKS: u32 = 64;
+/// Places on the segment are looked at each so far, of rho_hat.
+const STRIDE: f64 = 0.05;
 
 /// What remedies look at: displacements of obstacles since the tick included.
 #[derive(Clone, Copy)]
@@ -16,6 +19,8 @@ pub(in crate::agent) struct Sight<'a> {
     pub(in crate::agent) remedies: &'a Remedies,
     pub(in crate::agent) potential: &'a ObstaclePotential,
     pub(in crate::agent) zoning: &'a Zoning,
+    /// The robot's qualified fragments, m of arc length.
+    pub(in crate::agent) fragments: &'a [Interval],
     pub(in crate::agent) around: &'a Surroundings<'a>,
     pub(in crate::agent) moment: &'a Moment<'a>,
     /// Seconds since the last update.
@@ -61,13 +66,12 @@ impl Sight<'_> {
     /// Whether the leader's attraction acts: the robot may be held by it, and a guard before an obstacle, which the nearest point moves
     /// along, is no help.
     pub(super) fn is_pulled(&self, robot: Vector2<f64>) -> bool {
-        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
-        leader.is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
+        self.leader().is_some_and(|leader| self.zoning.zone((leader - robot).norm()) >= Zone::Attractive)
     }
 
     /// Whether the leader's attraction would draw the robot into a hull.
     pub(super) fn is_pulled_into(&self, index: usize, robot: Vector2<f64>) -> bool {
-        let leader = self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position);
+        let leader = self.leader();
         let through = |leader: Vector2<f64>| {
             (1..LOOKS).any(|look| {
                 let share = f64::from(look) / f64::from(LOOKS);
@@ -75,6 +79,10 @@ impl Sight<'_> {
             })
         };
         self.is_pulled(robot) && leader.is_some_and(through)
+    }
+
+    fn leader(&self) -> Option<Vector2<f64>> {
+        self.around.leader.map(|leader| leader.state.coasted(self.moment.since).position)
     }
 
     fn teammates(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
@@ -94,8 +102,55 @@ impl Sight<'_> {
         }
     }
 
-    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles; a rest if there is none.
-    pub(super) fn led(&self, robot: Vector2<f64>, target: Vector2<f64>) -> State {
+    /// A way to what draws the robot; to a place of its own, if there is none to a point of the segment; else a rest.
+    pub(super) fn led(&self, robot: Vector2<f64>, drawn: Drawn) -> State {
+        let own = || matches!(drawn, Drawn::To(_)).then(|| self.led_to_place(robot)).flatten();
+        let rest = || State::Suspended { until: self.time() + self.remedies.watch.patience, within: None };
+        self.way(robot, drawn.point(), false).or_else(own).unwrap_or_else(rest)
+    }
+
+    /// A way to the nearest place where the robot can rest; nothing if there is none.
+    pub(super) fn led_to_place(&self, robot: Vector2<f64>) -> Option<State> {
+        self.way(robot, self.place(robot)?, true)
+    }
+
+    /// How far beyond rho the leader is that has come to what draws it, m; negative within, and while the leader is under way.
+    pub(super) fn leader_gap(&self, robot: Vector2<f64>) -> f64 {
+        let settled = self.around.leader.is_some_and(|leader| leader.deviation <= self.remedies.watch.arrived);
+        let distance = self.leader().filter(|_| settled).map_or(0.0, |leader| (leader - robot).norm());
+        distance - self.zoning.radii().rho
+    }
+
+    /// The place on the robot's fragments, nearest to it, that lies in nobody's zone 2, in its leader's neutral zone and beyond the reach of
+    /// obstacles: there nothing but the trench acts.
+    fn place(&self, robot: Vector2<f64>) -> Option<Vector2<f64>> {
+        let (radii, segment, margin) = (self.zoning.radii(), &self.moment.segment, self.remedies.watch.arrived);
+        let (middle, reach) = (segment.nearest(robot).arc_length, radii.rho + radii.rho_check);
+        let fits = |point: Vector2<f64>| {
+            // Of those farther off only the places are known.
+            let places = self.around.places.iter().copied();
+            self.teammates().chain(places).all(|other| (other - point).norm() >= radii.rho_hat + margin)
+                && self.leader().is_none_or(|leader| (leader - point).norm() <= radii.rho - margin)
+                && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= self.potential.cut())
+        };
+        let mut best: Option<(f64, Vector2<f64>)> = None;
+        for (low, high) in self.fragments {
+            let (low, high) = (low.max(middle - reach), high.min(middle + reach));
+            let count = libm::ceil((high - low) / (STRIDE * radii.rho_hat)).max(0.0) as u32;
+            for index in 0..=count {
+                let share = f64::from(index) / f64::from(count.max(1));
+                let point = segment.at(low + share * (high - low)).point;
+                let distance = (point - robot).norm();
+                if low <= high && best.is_none_or(|(least, _)| distance < least) && fits(point) {
+                    best = Some((distance, point));
+                }
+            }
+        }
+        best.map(|(_, point)| point)
+    }
+
+    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles; `own` if the robot has chosen it.
+    fn way(&self, robot: Vector2<f64>, target: Vector2<f64>, own: bool) -> Option<State> {
         let radii = self.zoning.radii();
         let (apart, room) = (0.5 * (radii.rho_underbar + radii.rho_hat), self.potential.pole_with_margin());
         let is_free = |point: Vector2<f64>| {
@@ -103,16 +158,12 @@ impl Sight<'_> {
                 && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
         };
         let patience = self.remedies.watch.patience;
-        match way_round(robot, target, (0.25 * apart, 4.0 * radii.rho_hat), is_free) {
-            Some(way) => {
-                let corners = core::iter::once(&robot).chain(&way).zip(&way);
-                let length: f64 = corners.map(|(from, to)| (to - from).norm()).sum();
-                // Twice what the way takes: what is in the way then may be somewhere else.
-                let until = self.time() + patience + 2.0 * length / self.remedies.rising;
-                State::Led { until, carrot: robot, way }
-            }
-            None => State::Suspended { until: self.time() + patience, within: None },
-        }
+        let way = way_round(robot, target, (0.25 * apart, 4.0 * radii.rho_hat), is_free)?;
+        let corners = core::iter::once(&robot).chain(&way).zip(&way);
+        let length: f64 = corners.map(|(from, to)| (to - from).norm()).sum();
+        // Twice what the way takes: what is in the way then may be somewhere else.
+        let until = self.time() + patience + 2.0 * length / self.remedies.rising;
+        Some(State::Led { until, carrot: robot, way, own })
     }
 
     pub(super) fn find(&self, id: u32) -> Option<usize> {
