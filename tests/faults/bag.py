@@ -9,6 +9,8 @@ from pathlib import Path
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
+from launched import IMAGES
+
 # m/s, below which a robot stands.
 STANDS = 0.005
 # rad/s, below which it does not turn.
@@ -113,7 +115,7 @@ class Run:
         elif topic == "/assignment":
             if message.epoch < FOREIGN_EPOCH:
                 self.assignments.add(at, {member.robot: (member.queue, member.rank, member.leader) for member in message.members})
-        elif parts[-1] == "image_raw":
+        elif topic == IMAGES:
             self.images.add(at, at - self._time(message.header.stamp, at))
         elif topic == "/goals":
             if message.epoch < FOREIGN_EPOCH:

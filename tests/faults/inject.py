@@ -12,8 +12,9 @@ from functools import cached_property
 
 # Rate of what is published, Hz.
 RATE = 50.0
-# Of large ones one in so many turns; odd, so that what alternates with the turns does so for these, too.
-SELDOM = {"/overhead/image_raw": 9}
+# Pictures, which are large: one in so many turns, from the second one on, which is of the next hour where turns differ. RustDDS keeps the last 256
+# messages of every topic that a process hears (crates/runtime/src/transport/dds/qos.rs): more would be taken for memory that is lost.
+PICTURES, SELDOM = "/overhead/image_raw", 101
 # Topics that nobody reads, or only where robots have lasers: nobody waits until somebody does.
 UNREAD = ("/overhead/camera_info", "/robot1/scan")
 # Pixels of the overhead camera (config/cameras/overhead.yaml).
@@ -78,7 +79,7 @@ def _now(ears: Ears):
     return ears.node.get_clock().now().to_msg()
 
 
-def _speak(ears: Ears, voices: list, seconds: float) -> float:
+def _speak(ears: Ears, voices: list, seconds: float, seldom: int = SELDOM) -> float:
     """Publishes on several topics at once: kind, topic and what makes each message (or its bytes)."""
     publishers = [(ears.node.create_publisher(kind, topic, _quality(topic)), make) for kind, topic, make in voices]
     awaited = [publisher for publisher, _ in publishers if publisher.topic_name not in UNREAD]
@@ -89,7 +90,7 @@ def _speak(ears: Ears, voices: list, seconds: float) -> float:
     began, end, turn = time.time(), time.monotonic() + seconds, 0
     while time.monotonic() < end:
         for publisher, make in publishers:
-            if turn % SELDOM.get(publisher.topic_name, 1) == 0:
+            if publisher.topic_name != PICTURES or turn % seldom == 1:
                 publisher.publish(make(turn))
         turn += 1
         time.sleep(1.0 / RATE)
@@ -227,7 +228,8 @@ def _image(stamp, place: float):
     from sensor_msgs.msg import Image
 
     width, height = CAMERA
-    image = Image(width=width, height=height, encoding="rgb8", step=3 * width, data=array.array("B", bytes(3 * width * height)))
+    pixels = array.array("B", b"\x10\x80" * (width * height))
+    image = Image(width=width, height=height, encoding="yuv422_yuy2", step=2 * width, data=pixels)
     image.header.stamp, image.header.frame_id = stamp, "overhead_camera"
     return image
 
@@ -282,7 +284,7 @@ def _voices() -> list:
         (Odometry, "/target", _target),
         (LinkStatus, "/robot2/link", _link),
         (Identify, "/identify", _identify),
-        (Image, "/overhead/image_raw", _image),
+        (Image, PICTURES, _image),
         (CameraInfo, "/overhead/camera_info", _lens),
         (LaserScan, "/robot1/scan", _scan),
     ]
@@ -297,7 +299,7 @@ def foreign_command(ears: Ears, seconds: float) -> float:
 def second_camera(ears: Ears, seconds: float) -> float:
     """Somebody else's camera, of the same size and on time, shows that nobody is there."""
     voices = [voice for voice in _voices() if voice[1].startswith("/overhead/")]
-    return _speak(ears, [(kind, topic, lambda _, make=make: make(_now(ears), 0.0)) for kind, topic, make in voices], seconds)
+    return _speak(ears, [(kind, topic, lambda _, make=make: make(_now(ears), 0.0)) for kind, topic, make in voices], seconds, seldom=33)
 
 
 def not_numbers(ears: Ears, seconds: float) -> float:
