@@ -14,6 +14,7 @@ mod clock;
 mod exit;
 mod found;
 mod help;
+mod interrupted;
 mod journals;
 mod latency_request;
 mod lease;

@@ -76,7 +76,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     let files: Vec<&Path> = words.iter().filter(|word| !word.contains(":=")).map(Path::new).collect();
     let mut unknown: Vec<&String> = arguments.iter().map(|(name, _)| name).collect();
     let (mut controllers, mut formations, mut scenarios, mut robots) = (Vec::new(), Vec::new(), Vec::new(), None);
-    let (mut fields, mut begin) = (Vec::new(), Vec::new());
+    let (mut fields, mut begin, mut edges) = (Vec::new(), Vec::new(), None);
     let mut parameter_files: Vec<(String, String)> = Vec::new();
     // With what scenarios say of them.
     let mut launches: Vec<(PathBuf, Option<trench_scenario::Launch>)> = Vec::new();
@@ -112,6 +112,7 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
         let launched = launch(&file, own.chain(given).collect()).map_err(of_scenario)?;
         fields.extend(launched.field()?);
         begin.extend(launched.starts()?);
+        edges = launched.edges()?.or(edges);
         formations.extend(launched.formations);
         robots = launched.robots.or(robots);
         controllers.extend(launched.controllers);
@@ -121,7 +122,10 @@ pub(super) fn gather(words: &[String]) -> Result<Gathered, CheckError> {
     }
     let default = from_files(&parameter_files)?;
     let known = controllers.first().map_or(&default.parameters, |controller| &controller.parameters);
-    let team = Team { starts: begin, ..team(known, robots)? };
+    let mut team = Team { starts: begin, ..team(known, robots)? };
+    if controllers.is_empty() {
+        team.field = edges.unwrap_or(team.field);
+    }
     if !parameter_files.is_empty() {
         controllers.push(default);
     }
@@ -153,6 +157,18 @@ impl Launched {
     fn field(&self) -> Result<Option<Field>, CheckError> {
         match (&self.bed, &self.mapper, self.controllers.first()) {
             (Some(bed), Some(mapper), Some(one)) => field(bed, mapper, &one.parameters),
+            _ => Ok(None),
+        }
+    }
+
+    /// The field as the assignment knows it, low and high x, low and high y, m: all that tells of it where controllers run on hosts of
+    /// their own.
+    fn edges(&self) -> Result<Option<[[f64; 2]; 2]>, CheckError> {
+        match &self.assignment {
+            Some(assignment) if !assignment.f64_list("field")?.is_empty() => {
+                let [low_x, low_y, high_x, high_y] = assignment.f64_array("field")?;
+                Ok(Some([[low_x, high_x], [low_y, high_y]]))
+            }
             _ => Ok(None),
         }
     }

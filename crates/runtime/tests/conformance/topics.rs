@@ -2,6 +2,7 @@
 
 use crate::common::Running;
 use crate::{LOCAL, Network, on_every_network};
+use std::time::Duration;
 
 on_every_network! {
     order_and_exactly_once_at_speed
@@ -12,6 +13,7 @@ on_every_network! {
     messages_that_do_not_wake_come_with_the_next_event
     a_foreign_type_is_reported_and_not_read
     memory_does_not_grow_with_what_was_heard
+    who_was_stopped_goes_on_to_speak_and_to_hear
 }
 
 /// Sequence numbers and texts of the listener's next lines.
@@ -161,6 +163,21 @@ fn memory_does_not_grow_with_what_was_heard(network: Network) {
     heard(&listener, 5000);
     let grown = resident(&listener).saturating_sub(before);
     assert!(grown < 4_000_000, "the listener grew by {grown} bytes");
+}
+
+/// Over the network, whose threads the stop interrupts where they wait (SIGSTOP and SIGCONT, or a debugger that looks in).
+fn who_was_stopped_goes_on_to_speak_and_to_hear(network: Network) {
+    let island = network.island(17);
+    let listener = island.start("listener", "");
+    let talker = island.start("talker", "--ros-args -p rate:=50.0 -p local:=network");
+    heard(&listener, 20);
+    for stopped in [&talker, &listener, &talker, &listener] {
+        stopped.signal("STOP");
+        std::thread::sleep(Duration::from_millis(300));
+        stopped.signal("CONT");
+        // More than may have been on their way.
+        heard(&listener, 100);
+    }
 }
 
 /// Bytes of memory that a process holds.
