@@ -26,6 +26,8 @@ mod transits;
 mod verdict;
 mod vertices;
 mod walls;
+mod walls_of_controller;
+mod walls_of_scenario;
 mod zones;
 
 pub use chain::{ChainOfRobots, chain};

@@ -9,7 +9,7 @@ use crate::potential::potential;
 use crate::room::room;
 use crate::transits::transits;
 use crate::verdict::number;
-use crate::walls::{Coming, Wall, walls};
+use crate::walls_of_scenario::{walls_of_directed, walls_of_nearest};
 use crate::zones::zones;
 use crate::{Approach, ChainOfRobots, Verdict, chain, direction, gains};
 use trench_formation::Vector2;
@@ -19,7 +19,7 @@ use trench_formation::hull::Outline;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::seek::Fragments;
-use trench_formation::simulate::{ChainScenario, QueueRobotScenario, ZonedChainScenario};
+use trench_formation::simulate::{ChainScenario, QueueRobotScenario};
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_formation::zoning::Radii;
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Queue, Scenario, Task};
@@ -128,9 +128,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         zones(subject, [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar], 0.0),
         chain_damping(subject, chain.law.damping, chain.law.leader_damping),
     ];
-    let pull = steepest(&chain.law.trench) / least_turn(chain);
-    let coming = coming(pull, chain.law.damping, &chain.robots, Vector2::zeros(), None);
-    verdicts.extend(walls(subject, &coming, &[Wall::zones(&chain.law.zoning, ZONES)]));
+    verdicts.extend(walls_of_directed(subject, chain));
     let robots = chain.robots.iter().zip(chain.directions.iter().copied());
     verdicts.extend(directions(subject, &Placed::new(&task.curve, Default::default()), robots, chain.law.damping));
     verdicts.extend(feasibility_of_directed(subject, task));
@@ -225,43 +223,8 @@ fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability
     of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
 }
 
-/// Keys of a scenario's walls.
-const ZONES: &str = "zoning.full_acceleration";
-const OBSTACLES: &str = "obstacle_potential.full_acceleration";
-
-/// Whether zones and obstacles hold against the trench.
-fn walls_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Option<Verdict> {
-    let (pull, still) = (steepest(&task.law.trench) / least_sine(task), task.carriage.velocity);
-    let mut all = Vec::new();
-    if task.robots.len() > 1 {
-        all.push(Wall::zones(&task.zoning, ZONES));
-    }
-    if !task.obstacles.is_empty() {
-        let velocities = task.options.obstacle_velocities.iter();
-        let fastest = velocities.map(|velocity| (velocity - still).norm()).fold(0.0, f64::max);
-        all.push(Wall::obstacles(&task.potential, OBSTACLES, fastest));
-    }
-    walls(subject, &coming(pull, task.law.damping, &task.robots, still, task.options.limits), &all)
-}
-
-/// What the trench makes of robots, on a segment that moves at `still` (m/s).
-fn coming(pull: f64, damping: f64, robots: &[PointState], still: Vector2<f64>, limits: Option<Capability>) -> Coming {
-    let first = robots.iter().map(|robot| (robot.velocity - still).norm()).fold(0.0, f64::max);
-    let drawn = pull / damping;
-    let (speed, because) = if first > drawn { (first, "its speed at the start") } else { (drawn, "pull over damping") };
-    match limits {
-        Some(limits) if limits.speed < speed => Coming { pull, speed: limits.speed, because: "limits.speed" },
-        _ => Coming { pull, speed, because },
-    }
-}
-
-/// Sine of the least angle between the directions of attraction of a chain and its segment.
-fn least_turn(chain: &ZonedChainScenario<AnyTrench>) -> f64 {
-    chain.directions.iter().map(|along| along.normalize().perp(&chain.tangent).abs()).fold(1.0, f64::min)
-}
-
 /// Sine of the least angle between the direction of attraction and the segment.
-fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
+pub(crate) fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
     match task.options.method {
         Some(Method::Directed { direction: Some(along), .. }) => task.segment.least_sine(along),
         _ => 1.0,
@@ -269,7 +232,7 @@ fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
 }
 
 /// The largest slope of a trench; infinite of one that is not admissible.
-fn steepest(trench: &AnyTrench) -> f64 {
+pub(crate) fn steepest(trench: &AnyTrench) -> f64 {
     check_admissibility(trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant)
 }
 

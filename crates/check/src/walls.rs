@@ -92,8 +92,8 @@ pub(crate) fn walls(subject: &str, coming: &Coming, walls: &[Wall]) -> Option<Ve
         Verdict::new("walls", subject, true, finding, EQUATION)
     } else {
         let finding = format!(
-            "{stronger}. {}: that damping, which is not counted, stops it before the pole is measured and not proved",
-            thin.join("; ")
+            "{stronger}. {}. What damping, which is not counted, makes of that is measured, not proved",
+            thin.join(". ")
         );
         Verdict::noted("walls", subject, finding, EQUATION)
     })

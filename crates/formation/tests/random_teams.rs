@@ -4,16 +4,20 @@
 #![expect(clippy::print_stdout, reason = "the figures are of interest")]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
 use trench_formation::Vector2;
-use trench_formation::curve::{Curve, CurveShape};
+use trench_formation::chain::{Robot, organise};
+use trench_formation::curve::{Curve, CurveShape, Placed};
 use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::{
-    BODY_RADIUS, CAPABILITY, Standard, Verdict, judge, random_team, random_team_among_concave_obstacles,
+    BODY_RADIUS, CAPABILITY, ChainScenario, Encroaching, Standard, Verdict, judge, random_team,
+    random_team_among_concave_obstacles,
 };
+use trench_formation::trench::Hyperbolic;
 
 const STANDARD: Standard = Standard { body_radius: BODY_RADIUS, capability: CAPABILITY, tolerance: 0.1 };
 /// Part of the feasible teams that must conform in time.
@@ -79,6 +83,19 @@ fn verdicts(seeds: &[u64], verdict: fn(u64) -> Option<Verdict>) -> BTreeMap<u64,
     found.into_inner().unwrap()
 }
 
+/// What a verdict is counted as.
+fn kind(verdict: Option<Verdict>) -> &'static str {
+    match verdict {
+        None => "no place to start",
+        Some(Verdict::TooFewPlaces { .. }) => "too few places",
+        Some(Verdict::Disconnected(_)) => "disconnected",
+        Some(Verdict::Conforms { .. }) => "conform",
+        Some(Verdict::Late(..)) => "late",
+        Some(Verdict::Collision { .. }) => "collision",
+        Some(Verdict::NotFinite(_)) => "not finite",
+    }
+}
+
 #[test]
 fn random_teams_conform_and_never_collide() {
     conform_and_never_collide(verdict, CONFORMING);
@@ -92,15 +109,7 @@ fn random_teams_among_concave_obstacles_conform_and_never_collide() {
 fn conform_and_never_collide(verdict: fn(u64) -> Option<Verdict>, conforming: f64) {
     let (mut kinds, mut failed) = (BTreeMap::<&str, u32>::new(), Vec::new());
     for (seed, verdict) in verdicts(&seeds(), verdict) {
-        let kind = match verdict {
-            None => "no place to start",
-            Some(Verdict::TooFewPlaces { .. }) => "too few places",
-            Some(Verdict::Disconnected(_)) => "disconnected",
-            Some(Verdict::Conforms { .. }) => "conform",
-            Some(Verdict::Late(..)) => "late",
-            Some(Verdict::Collision { .. }) => "collision",
-            Some(Verdict::NotFinite(_)) => "not finite",
-        };
+        let kind = kind(verdict);
         *kinds.entry(kind).or_default() += 1;
         if matches!(kind, "late" | "collision" | "not finite") {
             failed.push(format!("seed {seed}: {verdict:?}\n"));
@@ -194,6 +203,106 @@ fn infeasible_teams_are_said_to_be() {
     (short.obstacles, short.options.obstacle_velocities) = (Vec::new(), Vec::new());
     (short.segment, short.team_goal) = (Curve::new(&CurveShape::Line(start, end), false, false).unwrap(), Some(end));
     assert_eq!(judged(short), Verdict::TooFewPlaces { places: 3 });
+}
+
+/// How many teams on short segments, and how many as printed, are run where nobody says (`TRENCH_SHORT`, `TRENCH_PRINTED`).
+const SHORT: u64 = 12;
+const PRINTED: u64 = 4;
+
+/// The team of a seed on a segment with 0.3 to 1.2 m for each robot, of which each needs 1 m: a line, a circle, or a line with an open end.
+/// With it the places that the bare segment has; none where it goes on for ever.
+fn short_team(seed: u64) -> Option<(ChainScenario<Hyperbolic>, Option<usize>)> {
+    let mut team = random_team(seed)?;
+    let count = team.robots.len();
+    let length = count as f64 * (0.3 + 0.9 * (0.618_033_988_75 * seed as f64).fract());
+    let middle = team.segment.at(0.5 * team.segment.length());
+    let half = 0.5 * length * middle.tangent;
+    let line = CurveShape::Line(middle.point - half, middle.point + half);
+    let pitch = team.zoning.radii().rho_hat;
+    let (shape, open, places) = match seed % 3 {
+        0 => (line, false, Some((length / pitch).floor() as usize + 1)),
+        1 => {
+            let radius = length / TAU;
+            let circle = CurveShape::Arc { centre: middle.point, radius, start_angle: 0.0, sweep: TAU };
+            // Neighbours are a pitch from each other in a straight line.
+            let turn = 2.0 * (0.5 * pitch / radius).min(1.0).asin();
+            (circle, false, Some(((TAU / turn + 1e-9).floor() as usize).max(1)))
+        }
+        _ => (line, true, None),
+    };
+    team.segment = Curve::new(&shape, false, open).unwrap();
+    let gap = |point: Vector2<f64>| {
+        let gaps = team.obstacles.iter().map(|obstacle| obstacle.shape.outline().approach(point).gap);
+        gaps.fold(f64::INFINITY, f64::min)
+    };
+    let points = (0..=100).map(|index| team.segment.at(0.01 * f64::from(index) * length).point);
+    let goal = points.max_by(|a, b| gap(*a).min(1.0).total_cmp(&gap(*b).min(1.0))).unwrap();
+    let names: Vec<String> = (0..count).map(|index| format!("{index:02}")).collect();
+    let robots: Vec<Robot<'_>> =
+        names.iter().zip(&team.robots).map(|(name, robot)| Robot { name, position: robot.position }).collect();
+    let chain = organise(&robots, goal, &Placed::new(&team.segment, Default::default())).unwrap();
+    let robots = chain.names().iter().map(|name| team.robots[name.parse::<usize>().unwrap()]);
+    (team.robots, team.team_goal) = (robots.collect(), Some(goal));
+    Some((team, places))
+}
+
+/// Segments that are too short are recognised as such, closed ones and those between obstacles too; open ones never are. Who has places
+/// collides with nobody.
+#[test]
+fn teams_on_short_segments_are_told_from_those_that_have_places() {
+    let count = number("TRENCH_SHORT").unwrap_or(SHORT);
+    let first = number("TRENCH_FIRST_SEED").unwrap_or(0);
+    let seeds: Vec<u64> = (first..first + count).collect();
+    let found = verdicts(&seeds, |seed| short_team(seed).map(|(team, _)| judge(team, &STANDARD).unwrap()));
+    let (mut kinds, mut proved) = (BTreeMap::<&str, u32>::new(), 0);
+    for (seed, verdict) in found {
+        let Some(verdict) = verdict else { continue };
+        let (team, places) = short_team(seed).unwrap();
+        let robots = team.robots.len();
+        match verdict {
+            Verdict::Disconnected(_) => {}
+            // Nothing that the bare segment has no place for is let run.
+            Verdict::TooFewPlaces { places: told } => {
+                assert!(
+                    told < robots && places.is_some_and(|places| told <= places),
+                    "seed {seed}: {told}, {places:?}"
+                );
+            }
+            _ => assert!(
+                places.is_none_or(|places| places >= robots),
+                "seed {seed}: {verdict:?}, {places:?} for {robots}"
+            ),
+        }
+        let bare = places.is_some_and(|places| places < robots);
+        proved += u32::from(bare && matches!(verdict, Verdict::TooFewPlaces { .. }));
+        assert!(!matches!(verdict, Verdict::Collision { .. } | Verdict::NotFinite(_)), "seed {seed}: {verdict:?}");
+        *kinds.entry(kind(Some(verdict))).or_default() += 1;
+    }
+    println!("figure: short segments: {kinds:?}");
+    assert!(count < SHORT || proved >= 3, "{proved} bare segments are too short");
+}
+
+/// By the printed steps of 7.5.2, where robots that have arrived encroach and nobody tells of the place that it has chosen, teams touch nothing
+/// either. How many of them conform in time is told, not asserted: step (6) sends some from one end to the other (docs/theory/chapter7.md).
+#[test]
+fn teams_by_the_printed_steps_touch_nothing() {
+    let count = number("TRENCH_PRINTED").unwrap_or(PRINTED);
+    let first = number("TRENCH_FIRST_SEED").unwrap_or(0);
+    let seeds: Vec<u64> = (first..first + count).collect();
+    let printed = |seed: u64| {
+        let team = random_team(seed)?;
+        let team = ChainScenario { encroaching: Encroaching::ObstaclesAndRobots(BODY_RADIUS), ..team };
+        Some(judge(team, &STANDARD).unwrap())
+    };
+    let mut kinds = BTreeMap::<&str, u32>::new();
+    for (seed, verdict) in verdicts(&seeds, printed) {
+        assert!(
+            !matches!(verdict, Some(Verdict::Collision { .. } | Verdict::NotFinite(_))),
+            "seed {seed}: {verdict:?}"
+        );
+        *kinds.entry(kind(verdict)).or_default() += 1;
+    }
+    println!("figure: by the printed steps: {kinds:?}");
 }
 
 #[test]

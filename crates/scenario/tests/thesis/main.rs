@@ -351,10 +351,10 @@ fn methods_of_7_8_side_by_side() {
     let least = |case: &CaseSummary| case.obstacles.iter().map(|obstacle| obstacle.least_gap).fold(f64::MAX, f64::min);
     assert!(summary.cases.iter().all(|case| least(case) > 0.1), "{summary:?}");
     // What docs/theory/chapter7.md tells of each: where it is caught, or when it arrives, and how near it comes.
-    let [apparent, conventional, ge_cui, instant, r#virtual] = &summary.cases[..] else { panic!("{summary:?}") };
+    let [apparent, conventional, ge_cui, instant, closing] = &summary.cases[..] else { panic!("{summary:?}") };
     assert_near(conventional.robots[0].position, &[-2.00, 3.40], 0.01);
     assert_near(ge_cui.robots[0].position, &[-2.00, 3.33], 0.01);
-    for (case, arrives, gap) in [(apparent, 15.76, 1.00), (instant, 17.42, 0.71), (r#virtual, 19.72, 0.31)] {
+    for (case, arrives, gap) in [(apparent, 15.76, 1.00), (instant, 17.42, 0.71), (closing, 19.72, 0.31)] {
         assert_near([case.conforms_after.unwrap(), least(case)], &[arrives, gap], 0.01);
     }
     // The scheme keeps the robot out of the troughs, farther from their walls than any other.
