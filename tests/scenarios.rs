@@ -187,11 +187,10 @@ fn numbers_that_overflow_are_told_with_the_file() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/scenarios/6.5.yaml");
     let text = std::fs::read_to_string(root).unwrap();
     let file = folder.path().join("large.yaml");
-    std::fs::write(
-        &file,
-        text.replace("step: 0.01 ", "step: 10.0 ").replace("record_every: 0.1 ", "record_every: 10.0 "),
-    )
-    .unwrap();
+    // Damping that is too stiff for the step.
+    let stiff = text.replace("step: 0.01 ", "step: 0.1 ").replace("damping: 2.0 ", "damping: 100.0 ");
+    assert_ne!(stiff, text);
+    std::fs::write(&file, stiff).unwrap();
     let output = trench(&["sim", file.to_str().unwrap(), "--quiet"]);
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{told}");

@@ -215,9 +215,8 @@ fn refused(map: &Map<'_>, error: &CurveError) -> ConfigError {
         CurveError::NotPositive { what, .. } => {
             map.error(key_of(what), error.to_string(), "write a number of metres above 0")
         }
-        CurveError::PointCount { .. } | CurveError::RepeatedPoint(..) => {
-            map.error("points", error.to_string(), "mend the list")
-        }
+        CurveError::PointCount { .. } => map.error("points", error.to_string(), "add points, or take some away"),
+        CurveError::RepeatedPoint(..) => map.error("points", error.to_string(), "remove one of them"),
         _ => map.as_node().error(error.to_string(), "mend the segment"),
     }
 }

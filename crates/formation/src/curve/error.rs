@@ -21,7 +21,7 @@ pub enum CurveError {
         expected: &'static str,
     },
     /// Two points in a row coincide, so a piece has no direction.
-    #[error("points {0} and {1} coincide, so the piece between them has length zero: remove one of them")]
+    #[error("points {0} and {1} coincide, so the piece between them has length zero")]
     RepeatedPoint(usize, usize),
     /// A radius, length, semi-axis or wavelength that must be positive is not.
     #[error("{what} is {value}, but must be greater than zero")]
