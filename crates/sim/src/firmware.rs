@@ -215,7 +215,7 @@ impl Firmware {
             ranges: sensors.ranges,
         };
         self.sent += 1;
-        let asks = self.last_relayed > 0 || silence > UNHEARD;
+        let asks = self.last_relayed > 0 || silence > UNHEARD || self.relay.are_wanted(now);
         let relaying = if asks { Relaying::Anyone(MAX_RELAYS as u8) } else { Relaying::Direct };
         // A robot without a clock keeps the number of its starts instead: its counters never go back either.
         let counter = self.switched_on / COUNTER_TICK + self.sent;

@@ -26,16 +26,25 @@ pub(crate) struct Relay {
     reports: [Freshness; MAX_ROBOTS],
     /// Its place in the last list that named it, and when that came.
     named: Option<(usize, u64)>,
+    /// When the base named relays last, whoever they are.
+    any_named: Option<u64>,
 }
 
 impl Relay {
     pub(crate) fn new(id: u8) -> Self {
-        Self { id, heard: [None; MAX_ROBOTS], reports: [Freshness::default(); MAX_ROBOTS], named: None }
+        Self {
+            id,
+            heard: [None; MAX_ROBOTS],
+            reports: [Freshness::default(); MAX_ROBOTS],
+            named: None,
+            any_named: None,
+        }
     }
 
     /// A packet of the base that was new.
     pub(crate) fn pass_down(&mut self, now: u64, packet: &Packet, bytes: &[u8]) -> Option<Relayed> {
         let Relaying::By(list) = packet.relaying else { return None };
+        self.any_named = Some(now);
         let place = RelayList::place(&list, self.id)?;
         self.named = Some((place, now));
         (packet.relayed < packet.relaying.limit()).then(|| Self::relayed(place, bytes, false))
@@ -66,6 +75,11 @@ impl Relay {
     /// Whether reports that it hears may lead to something at the base station.
     pub(crate) fn is_relay(&self, now: u64) -> bool {
         self.named.is_some_and(|(_, at)| now.saturating_sub(at) <= LATELY)
+    }
+
+    /// Whether the base has lately wanted relays: it does not hear somebody, and who that is does not know it where it hears the base.
+    pub(crate) fn are_wanted(&self, now: u64) -> bool {
+        self.any_named.is_some_and(|at| now.saturating_sub(at) <= LATELY)
     }
 
     fn relayed(place: usize, bytes: &[u8], for_base: bool) -> Relayed {

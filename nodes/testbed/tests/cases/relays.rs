@@ -42,6 +42,22 @@ fn neighbours_pass_commands_and_reports_on() {
     }
 }
 
+/// Everybody hears the base station, which hears the first robot alone: those that it does not hear cannot know it but by its wish for
+/// relays.
+#[test]
+fn who_hears_and_is_not_heard_is_passed_on_too() {
+    let reach = |way: &'static str, metres: f64| (way, Double(metres));
+    let air = [reach("radio.reach.down", 5.0), reach("radio.reach.up", 1.0), reach("radio.reach.robots", 1.0)];
+    let mut both = Loop::new(&LINE, &[], &air, &Texts(Vec::new()));
+    both.run_state(RunState::RUNNING);
+    both.run(4000);
+    both.drive(30, 3, 0.06, 0.0);
+    for robot in 1..=3 {
+        let link: LinkStatus = both.bridge.last(&format!("/robot{robot}/link"));
+        assert!(link.up && usize::from(link.hops) == robot, "{link:?}");
+    }
+}
+
 #[test]
 fn without_them_robots_out_of_reach_rest() {
     let mut both = line(false);
