@@ -4,7 +4,7 @@ use crate::controller::chain_damping;
 use crate::goal::goal;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
-use crate::passing::room_on_the_way;
+use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
 use crate::room::room;
 use crate::transits::transits;
@@ -15,10 +15,8 @@ use crate::{Approach, ChainOfRobots, Verdict, chain, direction, gains};
 use trench_formation::Vector2;
 use trench_formation::agent::Method;
 use trench_formation::curve::Placed;
-use trench_formation::hull::Outline;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
-use trench_formation::seek::Fragments;
 use trench_formation::simulate::{ChainScenario, QueueRobotScenario};
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_formation::zoning::Radii;
@@ -200,14 +198,9 @@ fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
 }
 
 fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
-    let (radii, whole) = (task.zoning.radii(), task.segment.domain());
-    let placed = Placed::new(&task.segment, task.carriage.at(0.0).0);
-    let hulls = task.combined(&task.obstacles).ok();
-    let room = hulls.map(|hulls| {
-        let outlines: Vec<Outline<'_>> = hulls.iter().map(|obstacle| obstacle.shape.outline()).collect();
-        let fragments = Fragments::find(&placed, whole, &outlines, task.potential.cut(), task.seeking.room);
-        room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat)
-    });
+    let radii = task.zoning.radii();
+    let room = fragments_at(task, 0.0)
+        .map(|fragments| room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat));
     let recovers = task.options.recovery.is_some();
     let later = room_on_the_way(subject, task, duration);
     let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));

@@ -80,6 +80,16 @@ impl Stopping {
         2.0 * (self.radius + speed * period + speed * speed / acceleration)
     }
 
+    /// What [`Self::admit`] leaves of what the robot of an index wants, for a step of `step` (s), among others under the same filter and
+    /// nothing else.
+    pub fn admit_among(&self, robots: &[PointState], index: usize, wanted: Vector2<f64>, step: f64) -> Vector2<f64> {
+        let (robot, range) = (robots[index], self.range(step));
+        let others = robots.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
+        let near = others.filter(|other| (other.position - robot.position).norm() < range);
+        let lines: Vec<Line> = near.map(|other| self.between(robot, *other)).collect();
+        self.admit(robot, wanted, &lines, core::iter::empty(), step)
+    }
+
     /// The acceleration nearest to `wanted` found that keeps to all `lines` for a step of `step` (s), and out of the way of what passes as
     /// far as that allows. A robot whose way keeps to all lines can always go on: braking does.
     pub fn admit<'a>(

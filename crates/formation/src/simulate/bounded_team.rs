@@ -2,7 +2,7 @@
 use super::Integration;
 use crate::kinematics::PointState;
 use crate::laws::{Capability, GoalMotion, GoalTracking};
-use crate::safety::{Line, Stopping};
+use crate::safety::Stopping;
 use crate::trench::{Damping, Trench};
 
 /// A team under way: each robot with the goal point of its index, all under one law.
@@ -42,17 +42,12 @@ impl<T: Trench, D: Damping> BoundedTeam<T, D> {
     pub fn step(&mut self, goal: impl Fn(usize, f64) -> GoalMotion) {
         let (time, step) = (self.time(), self.step);
         self.seen.clone_from(&self.robots);
-        let mut lines: Vec<Line> = Vec::new();
         for (index, robot) in self.robots.iter_mut().enumerate() {
             let goal = goal(index, time);
             let within = self.limits.saturate(robot.velocity - goal.velocity, self.law.terms(*robot, goal), step);
             let mut acceleration = goal.acceleration + within;
             if let Some(safety) = &self.safety {
-                let others = self.seen.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
-                let near = others.filter(|other| (other.position - robot.position).norm() < safety.range(step));
-                lines.clear();
-                lines.extend(near.map(|other| safety.between(*robot, *other)));
-                acceleration = safety.admit(*robot, acceleration, &lines, core::iter::empty(), step);
+                acceleration = safety.admit_among(&self.seen, index, acceleration, step);
             }
             *robot = self.integration.held(*robot, acceleration, step);
         }

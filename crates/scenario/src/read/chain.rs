@@ -42,8 +42,8 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
     let nodes = some(map, "robots")?;
     let robots: Vec<PointState> = nodes.iter().map(state).collect::<Result<_, _>>()?;
     let team_goal = point(map.node("team_goal")?)?;
-    let ranked = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
-    let (nodes, robots) = (&ranked.0, ranked.1.clone());
+    let (nodes, robots) = ranked(map, nodes, robots, Some(team_goal), &Placed::new(&curve, Default::default()))?;
+    let nodes = &nodes;
     let (tangent, domain) = ((to - from).normalize(), curve.domain());
     let direction = trench_plan::angle(map, "direction")?;
     let across = Vector2::new(-tangent.y, tangent.x);
@@ -107,7 +107,7 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
         seeking: SEEKING,
         encroaching: Encroaching::Nothing,
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
-        options: Options { method: Some(method), ..options(map, timing, ranked.0.len())? },
+        options: Options { method: Some(method), ..options(map, timing, nodes.len())? },
         step: timing.step,
         steps_per_tick: 1,
     };

@@ -96,7 +96,7 @@ pub(super) fn damping(map: &Map<'_>, key: &str) -> Result<AnyDamping, ConfigErro
         0 => AnyDamping::Constant(ConstantDamping { coefficient: positive(&map, "coefficient")? }),
         1 => AnyDamping::Hyperbolic(hyperbolic()?),
         3 => {
-            let range = if map.opt_node("range").is_some() { positive(&map, "range")? } else { RANGE };
+            let range = positive_or(&map, "range", RANGE)?;
             let written = WrittenDamping::new(trench_plan::expression(map.node("coefficient")?)?, range);
             let remedy = "write another formula of k in x, like 1 + 2*abs(x)";
             AnyDamping::Written(written.map_err(|error| map.error("coefficient", error.to_string(), remedy))?)
@@ -138,7 +138,7 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
         }
         7 => AnyTrench::Critical(CriticallyDamped(damping(&map, "damping")?)),
         _ => {
-            let range = if map.opt_node("range").is_some() { positive(&map, "range")? } else { RANGE };
+            let range = positive_or(&map, "range", RANGE)?;
             let (key, meaning) = match map.opt_node("potential") {
                 Some(_) => ("potential", Meaning::Potential),
                 None => ("slope", Meaning::Slope),

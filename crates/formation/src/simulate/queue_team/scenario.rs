@@ -3,7 +3,7 @@ use crate::Vector2;
 use crate::curve::Curve;
 use crate::kinematics::PointState;
 use crate::laws::{Capability, QueueFollowing};
-use crate::safety::{Line, Stopping};
+use crate::safety::Stopping;
 
 /// A queue of chapter 8, and what befalls it.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,13 +37,8 @@ impl QueueScenario {
         wanted: Vector2<f64>,
         step: f64,
     ) -> Vector2<f64> {
-        let robot = robots[index];
-        let wanted = self.limits.map_or(wanted, |limits| limits.admit(robot.velocity, wanted, step));
-        let Some(safety) = &self.safety else { return wanted };
-        let others = robots.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
-        let near = others.filter(|other| (other.position - robot.position).norm() < safety.range(step));
-        let lines: Vec<Line> = near.map(|other| safety.between(robot, *other)).collect();
-        safety.admit(robot, wanted, &lines, core::iter::empty(), step)
+        let wanted = self.limits.map_or(wanted, |limits| limits.admit(robots[index].velocity, wanted, step));
+        self.safety.map_or(wanted, |safety| safety.admit_among(robots, index, wanted, step))
     }
 }
 
