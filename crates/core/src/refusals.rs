@@ -1,7 +1,8 @@
 //! Messages that a node does not take: counted, told on /diagnostics, and logged seldom.
 
-use crate::{Condition, Health, Level, Sink, Steady};
+use crate::{Condition, Health, Interface, Level, Sink, Steady};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
 /// The part of /diagnostics that tells of them.
 const PART: &str = "messages";
@@ -34,6 +35,19 @@ impl Refusals {
         }
         health.set(PART, Condition::Warn, what);
         health.value(PART, "dropped", self.count);
+    }
+
+    /// A message on this port of `interface` is not taken, for a reason that is named behind its topic.
+    pub fn tell_dropped(
+        &mut self,
+        now: Steady,
+        (interface, port): (&Interface, usize),
+        why: impl Display,
+        health: &mut Health,
+        sink: &mut dyn Sink,
+    ) {
+        let topic = interface.subscriptions.get(port).map_or("?", |subscribe| subscribe.topic.as_str());
+        self.tell(now, port, format!("a message on {topic} was dropped: {why}"), health, sink);
     }
 
     /// Ends the warning when none came for a while. To be called now and then.

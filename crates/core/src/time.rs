@@ -20,6 +20,18 @@ pub struct Times {
     pub steady: Steady,
 }
 
+impl Times {
+    /// What was seen so far ahead of our clock, s, was stamped by a wrong one: those after it would be older.
+    pub const FUTURE: f64 = 0.5;
+
+    /// How far `stamp` is in the future, s, if that is more than [`Self::FUTURE`]. While ROS time is zero nobody knows (/clock has not begun).
+    #[must_use]
+    pub fn from_the_future(self, stamp: RosTime) -> Option<f64> {
+        let ahead = stamp.seconds_since(self.ros);
+        (self.ros != RosTime(0) && ahead > Self::FUTURE).then_some(ahead)
+    }
+}
+
 impl RosTime {
     /// Seconds from `earlier` to this time, negative if it is later.
     #[must_use]

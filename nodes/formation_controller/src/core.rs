@@ -273,9 +273,7 @@ impl NodeCore for FormationController {
                 Ok(true) => self.drive(at, sink),
                 Ok(false) => {}
                 Err(error) => {
-                    let topic = &self.interface.subscriptions[port].topic;
-                    let text = format!("a message on {topic} was dropped: {error}");
-                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                    self.refusals.tell_dropped(at.steady, (&self.interface, port), error, &mut self.health, sink);
                 }
             },
             Event::Wakeup => self.drive(at, sink),

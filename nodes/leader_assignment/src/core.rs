@@ -202,9 +202,7 @@ impl NodeCore for LeaderAssignment {
             }
             Event::Message { port, source, cdr, .. } => {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
-                    let topic = &self.interface.subscriptions[port].topic;
-                    let text = format!("a message on {topic} was dropped: {error}");
-                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                    self.refusals.tell_dropped(at.steady, (&self.interface, port), error, &mut self.health, sink);
                 }
             }
             Event::Request { service, id, cdr } => self.serve(at, (service, id), cdr, sink),

@@ -37,8 +37,6 @@ const HULLS: Local = Local::SharedMemory { max_len: 65_536 };
 const MOST_WAITING: usize = 64;
 /// How long they wait, s.
 const PATIENCE: f64 = 0.3;
-/// A message so far ahead of time, s, comes from a wrong clock.
-const FUTURE: f64 = 0.5;
 
 /// Combines what all sources tell of.
 pub struct ObstacleMapper {
@@ -204,7 +202,7 @@ impl ObstacleMapper {
                 self.take_scans(at, sink);
             }
             Err(error) => {
-                self.refuse(at, TEAM, &error, sink);
+                self.refusals.tell_dropped(at.steady, (&self.interface, TEAM), error, &mut self.health, sink);
             }
         }
     }
@@ -213,7 +211,7 @@ impl ObstacleMapper {
         let robot = port.saturating_sub(SCANS);
         let Some(laser) = self.lasers.get_mut(robot) else { return };
         if let Err(error) = laser.check(source, at.steady, Master::SILENCE) {
-            return self.refuse(at, port, &error.to_string(), sink);
+            return self.refusals.tell_dropped(at.steady, (&self.interface, port), error, &mut self.health, sink);
         }
         let checked = LaserScan::decode(cdr).map_err(|error| error.to_string()).and_then(|scan| {
             check(&scan)?;
@@ -235,12 +233,6 @@ impl ObstacleMapper {
                 self.of_scans.refuse(&what, &mut self.health, sink);
             }
         }
-    }
-
-    fn refuse(&mut self, at: Times, port: usize, why: &str, sink: &mut dyn Sink) {
-        let topic = self.interface.subscriptions.get(port).map_or("?", |reader| reader.topic.as_str());
-        let what = format!("a message on {topic} was dropped: {why}");
-        self.refusals.tell(at.steady, port, what, &mut self.health, sink);
     }
 
     /// Takes the scans whose robots' poses are known by now.
@@ -276,10 +268,10 @@ impl ObstacleMapper {
     }
 }
 
-/// Whether what a message tells of can have been by now. While ROS time is zero nobody knows (/clock has not begun).
+/// Whether what a message tells of can have been by now.
 fn timely(at: Times, header: &Header) -> Result<(), String> {
-    let ahead = RosTime::from(&header.stamp).seconds_since(at.ros);
-    if at.ros != RosTime(0) && ahead > FUTURE { Err("its stamp is in the future".to_owned()) } else { Ok(()) }
+    let ahead = at.from_the_future(RosTime::from(&header.stamp));
+    ahead.map_or(Ok(()), |_| Err("its stamp is in the future".to_owned()))
 }
 
 /// An apparent obstacle with the velocity of its fastest member.

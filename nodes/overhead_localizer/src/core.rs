@@ -112,9 +112,7 @@ impl OverheadLocalizer {
             }
             Err(Dropped::Broken(reason)) => self.report.reject(reason, sink),
             Err(Dropped::Refused(refusal)) => {
-                let topic = self.interface.subscriptions.get(camera).map_or("?", |reader| reader.topic.as_str());
-                let what = format!("a message on {topic} was dropped: {refusal}");
-                self.report.refuse(at.steady, camera, what, sink);
+                self.report.refuse(at.steady, (&self.interface, camera), refusal, sink);
             }
         }
     }

@@ -2,9 +2,6 @@
 
 use trench_core::{NotMaster, RosTime, Times};
 
-/// A frame so far ahead of our clock, s, comes from a wrong one: those after it would be older.
-const FUTURE: f64 = 0.5;
-
 /// Why a message changes nothing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum Dropped {
@@ -31,13 +28,12 @@ impl From<String> for Dropped {
     }
 }
 
-/// Whether a frame of this stamp can have been exposed by now. While ROS time is zero nobody knows (/clock has not begun).
+/// Whether a frame of this stamp can have been exposed by now.
 ///
 /// # Errors
 /// How far ahead it is.
 pub(crate) fn timely(at: Times, stamp: RosTime) -> Result<(), Refusal> {
-    let ahead = stamp.seconds_since(at.ros);
-    if at.ros != RosTime(0) && ahead > FUTURE { Err(Refusal::Future(ahead)) } else { Ok(()) }
+    at.from_the_future(stamp).map_or(Ok(()), |ahead| Err(Refusal::Future(ahead)))
 }
 
 #[cfg(test)]

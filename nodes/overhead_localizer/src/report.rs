@@ -1,10 +1,11 @@
 //! What the localizer tells people: log lines when a robot's status changes, the state of camera and team once a second.
 
 use crate::missing::{self, Missing};
+use crate::refusal::Refusal;
 use crate::stream::Stream;
 use crate::track::{Status, Track};
 use std::collections::BTreeMap;
-use trench_core::{Condition, Health, Level, Refusals, Sink, Steady, Times};
+use trench_core::{Condition, Health, Interface, Level, Refusals, Sink, Steady, Times};
 
 /// Without frames for so long, s, something is wrong with the camera.
 const SILENCE: f64 = 0.5;
@@ -66,9 +67,9 @@ impl Report {
         *self.rejected.entry(reason).or_default() += 1;
     }
 
-    /// Counts a frame of this port that is another publisher's or of another time, for a reason given as a whole sentence.
-    pub(crate) fn refuse(&mut self, now: Steady, port: usize, what: String, sink: &mut dyn Sink) {
-        self.refusals.get_or_insert_default().tell(now, port, what, &mut self.health, sink);
+    /// Counts a frame of this port that is another publisher's or of another time.
+    pub(crate) fn refuse(&mut self, now: Steady, port: (&Interface, usize), why: Refusal, sink: &mut dyn Sink) {
+        self.refusals.get_or_insert_default().tell_dropped(now, port, why, &mut self.health, sink);
         self.is_urgent = true;
     }
 

@@ -92,8 +92,7 @@ impl RfBridge {
                 match self.localizer.admit(source, at.steady) {
                     Ok(()) => self.hear_identify(at, &message),
                     Err(error) => {
-                        let text = format!("a message on /identify was dropped: {error}");
-                        self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                        self.refusals.tell_dropped(at.steady, (&self.interface, port), error, &mut self.health, sink);
                     }
                 }
             }
@@ -186,9 +185,7 @@ impl NodeCore for RfBridge {
             }
             Event::Message { port, source, cdr, .. } => {
                 if let Err(error) = self.take(at, port, source, cdr, sink) {
-                    let topic = &self.interface.subscriptions[port].topic;
-                    let text = format!("a message on {topic} was dropped: {error}");
-                    self.refusals.tell(at.steady, port, text, &mut self.health, sink);
+                    self.refusals.tell_dropped(at.steady, (&self.interface, port), error, &mut self.health, sink);
                 }
             }
             Event::Request { service, id, .. } => {

@@ -7,8 +7,6 @@ use trench_msgs::msg::ObstacleArray;
 
 /// Ids of the second source and later ones are moved by this much a source.
 const IDS_A_SOURCE: u32 = 1 << 20;
-/// A message that is so far ahead of time, s, comes from a wrong clock.
-const FUTURE: f64 = 0.5;
 /// A clock that runs back this far, s, was set anew: less is a message out of order.
 const SET_BACK: f64 = 1.0;
 /// A moving obstacle is carried on for so long after the last news, s; then it stays.
@@ -62,7 +60,7 @@ impl Speaker {
     /// Why a message as a whole cannot be used.
     fn refusal(&self, at: Times, stamp: RosTime, message: &ObstacleArray) -> Option<String> {
         let ahead = stamp.seconds_since(at.ros);
-        if ahead > FUTURE {
+        if ahead > Times::FUTURE {
             return Some(format!("a message was dropped: its stamp is {ahead:.1} s in the future"));
         }
         let behind = self.stamp.map_or(0.0, |last| last.seconds_since(stamp));

@@ -144,9 +144,12 @@ impl Loop {
     fn tell_testbed(&mut self, event: Event<'_>) {
         let (at, before) = (self.times(), self.testbed.outbox.actions.len());
         self.testbed.core.handle(at, event, &mut self.testbed.outbox);
+        if !self.is_connected {
+            return;
+        }
         let written: Vec<Vec<u8>> = self.testbed.outbox.actions[before..].iter().filter_map(bytes).collect();
-        for bytes in written.iter().filter(|_| self.is_connected).collect::<Vec<_>>() {
-            self.tell_bridge(Event::Bytes { stream: 0, data: bytes });
+        for bytes in written {
+            self.tell_bridge(Event::Bytes { stream: 0, data: &bytes });
         }
     }
 
