@@ -8,6 +8,8 @@ use trench_core::{Durability, Qos, Reliability};
 /// the fastest. RustDDS drops the oldest ones beyond it, and keeps those that were taken as well: a process's memory grows to so
 /// many of every topic that it hears.
 const UNREAD: i32 = 256;
+/// The same where only the newest is asked for: half a second of a camera, whose pictures of 1.3 MB take 20 MB then.
+const UNSEEN: i32 = 16;
 
 /// What a writer offers. A write never blocks (zero blocking time): what does not fit the send window waits in the
 /// writer's own queue.
@@ -49,7 +51,9 @@ pub(crate) fn offered(policies: &QosPolicies) -> Qos {
 /// What a reader asks for. The history is the cache between RustDDS's thread and the event loop, not a ROS queue, hence
 /// mostly deeper than `qos.depth`.
 pub(crate) fn reader(qos: Qos) -> QosPolicies {
-    common(qos).history(policy::History::KeepLast { depth: depth(qos).max(UNREAD) }).build()
+    let depth = depth(qos).max(if qos == Qos::SENSOR { UNSEEN } else { UNREAD });
+    // Without limits RustDDS keeps 64 at least.
+    common(qos).history(policy::History::KeepLast { depth }).resource_limits(limits(depth)).build()
 }
 
 /// Requests and responses of services, as ROS 2's default for services.
@@ -69,4 +73,21 @@ fn common(qos: Qos) -> QosPolicyBuilder {
 
 fn depth(qos: Qos) -> i32 {
     i32::try_from(qos.depth.max(1)).unwrap_or(i32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_asks_for_the_newest_alone_does_not_keep_minutes_of_pictures() {
+        let kept = |qos| match (reader(qos).history(), reader(qos).resource_limits()) {
+            (Some(policy::History::KeepLast { depth }), Some(limits)) if limits.max_samples == depth => depth,
+            kept => panic!("{kept:?}"),
+        };
+        assert_eq!(kept(Qos::SENSOR), 16);
+        assert_eq!(kept(Qos::RELIABLE), 256);
+        assert_eq!(kept(Qos::LATCHED), 256);
+        assert_eq!(kept(Qos { depth: 1000, ..Qos::RELIABLE }), 1000);
+    }
 }
