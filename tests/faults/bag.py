@@ -68,6 +68,8 @@ class Run:
         self.goals = Series()
         self.team = Series()
         self.diagnostics: list[tuple[float, str, bytes]] = []
+        # When they were said, by their own word.
+        self.said: list[float] = []
         self.contacts: list[tuple[float, str]] = []
         self.log_times: list[float] = []
         self.t0 = None
@@ -131,6 +133,7 @@ class Run:
             for status in message.status:
                 level = status.level if isinstance(status.level, bytes) else bytes([status.level])
                 self.diagnostics.append((at, f"{status.name}: {status.message}", level))
+                self.said.append(self._time(message.header.stamp, at))
                 if status.name.endswith("testbed: faults"):
                     self.bed_faults.append((at, status.message))
 

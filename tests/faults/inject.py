@@ -223,6 +223,19 @@ def _identify(stamp, place: float):
     return identify
 
 
+def _all_is_well(stamp, place: float):
+    """Nobody needs to stop."""
+    from std_msgs.msg import Bool
+
+    return Bool(data=False)
+
+
+def _delay(stamp, place: float):
+    from std_msgs.msg import Float64
+
+    return Float64(data=place)
+
+
 def _image(stamp, place: float):
     """A black picture: nobody is there any more."""
     from sensor_msgs.msg import Image
@@ -258,6 +271,7 @@ def _voices() -> list:
     from geometry_msgs.msg import TwistStamped
     from nav_msgs.msg import Odometry
     from sensor_msgs.msg import CameraInfo, Image, LaserScan
+    from std_msgs.msg import Bool, Float64
     from trench_msgs.msg import (
         ApparentObstacleArray,
         Assignment,
@@ -287,6 +301,9 @@ def _voices() -> list:
         (Image, PICTURES, _image),
         (CameraInfo, "/overhead/camera_info", _lens),
         (LaserScan, "/robot1/scan", _scan),
+        (Formation, "/set_formation", _formation),
+        (Bool, "/emergency_stop", _all_is_well),
+        (Float64, "/loop_delay", _delay),
     ]
 
 
@@ -333,7 +350,8 @@ def wrong_sizes(ears: Ears, seconds: float) -> float:
     def noise(_):
         return b"\x00\x01\x00\x00" + chance.randbytes(chance.choice([0, 1, 3, 17, 64, 900]))
 
-    return _speak(ears, [(kind, topic, noise) for kind, topic, _ in _voices()], seconds)
+    # A byte that is not zero says stop, and is obeyed.
+    return _speak(ears, [(kind, topic, noise) for kind, topic, _ in _voices() if topic != "/emergency_stop"], seconds)
 
 
 def wrong_types(ears: Ears, seconds: float) -> float:

@@ -11,7 +11,7 @@ from bag import NEAR, Run
 from evidence import Evidence
 from hosts import BASE
 from left import GAP, left_behind, recorded
-from motion import AGE, FRAME, allowed, burst, idle, moves, rest, resting_share, stale, standstill, stretch
+from motion import AGE, FRAME, allowed, burst, idle, moves, rest, resting_share, spans, stale, standstill, stretch
 from verdict import Verdict
 
 # s, from a fault's beginning to the diagnostic that names it.
@@ -21,6 +21,8 @@ DIAGNOSTIC = 0.5
 BEFORE, LATE = 0.8, 0.1
 # s, from a fault's end until every robot is driven again, and until the formation stands again.
 RECOVERY, FORMATION = 2.0, 10.0
+# s, for which a robot may stand as any does on its way.
+STALLED = 0.1
 # s, in which a robot drives again that a restarted process drives, and from a robot's silence to an assignment without it: 2 s
 # (`age.robot`), looked at once a second.
 RESUMED, QUIT = 1.0, 3.0
@@ -140,6 +142,15 @@ def diagnose(bag: Run, fault: dict, began: float, evidence: Evidence, verdict: V
     """When the fault was named, if anybody can know of it (a reason why not is told by `unnamed`); before, it must not have been."""
     pattern = fault.get("says")
     harm = began + fault.get("later", 0.0)
+    if fault.get("stalls"):
+        stood = [span.first for span in spans(bag, began, began + fault["for"]) if not span.moving and span.last - span.first > STALLED]
+        if not stood:
+            return
+        said = [at for at, (_, text, level) in zip(bag.said, bag.diagnostics) if level != OK and re.search(pattern, text)]
+        verdict.diagnosed = min((at - min(stood) for at in said if at >= began - BEFORE), default=None)
+        if verdict.diagnosed is None or verdict.diagnosed > DIAGNOSTIC:
+            verdict.problems.append(f"nothing like {pattern!r} named within {DIAGNOSTIC} s why robots stand")
+        return
     if "warns" in fault:
         pattern = fault["warns"]
         said = "\n".join(evidence.logs.values())

@@ -236,6 +236,15 @@ class Judged(unittest.TestCase):
         self.bag.truth["robot1"] = Series()
         self.assertEqual(motion.resting_share(self.bag, BEGAN, ENDED), 0.0)
 
+    def test_robots_that_stand_because_of_a_slow_network_are_told_of_by_the_stamp(self):
+        fault = {"stalls": True, "for": ENDED - BEGAN, "says": "the pose is"}
+        for said, missing in ((0.5, False), (0.7, True), (None, True)):
+            self.bag.diagnostics = [(BEGAN + 5.0, "/robot1/formation_controller: motion: resting: the pose is 0.2 s old", b"\1")] if said else []
+            self.bag.said = [BEGAN + said] if said else []
+            self.assertEqual("why robots stand" in self.problems(fault), missing, said)
+        self.moved(BEGAN, ENDED, SPEED)
+        self.assertNotIn("why robots stand", self.problems(fault))
+
     def test_no_robot_moves_on_what_is_old(self):
         self.told([(at + 0.001, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 5.0])
         self.assertIn("robot1 moves at 5.", self.problems())
@@ -243,7 +252,11 @@ class Judged(unittest.TestCase):
     def test_wheels_turn_on_young_commands_of_their_own_controller_alone(self):
         self.told([(at + 0.001, packet(0.2)) for at in STAMPS if T0 <= at < OVER])
         self.assertIn("which no command says", self.problems())
-        self.told([(at + 0.5, packet(SPEED)) for at in STAMPS if T0 <= at < T0 + 9.0] + [(BEGAN + 0.9, packet(SPEED))])
+        last = max(at for at in self.bag.stamps["robot1"].values if at < BEGAN + 0.2)
+        for late, named in ((0.5, True), (0.26, True), (0.24, False)):
+            self.told([(last + late, packet(SPEED))])
+            self.assertEqual("which no command says" in self.problems(), named, late)
+        self.told([(BEGAN + 0.9, packet(SPEED))])
         self.assertIn("which no command says", self.problems())
         self.told([])
         self.assertIn("nothing was said to wheels", self.problems())

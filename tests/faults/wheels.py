@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bag import Run, Series
-from motion import AGE, FRAME, HALF_AXLE
+from motion import AGE, HALF_AXLE
 
 # m/s times timer value, the slowest speed of a wheel that turns, and the fastest.
 SPEED_TIMES_TIMER, SLOWEST, FASTEST = 1060.288, 0.0162, 0.3
@@ -98,7 +98,7 @@ def founded(bag: Run, everywhere: list[Run], tap: Path) -> tuple[list[str], dict
         if (order.left, order.right) == (0.0, 0.0) or not (bag.t0 or math.inf) <= order.at <= (bag.stopped or math.inf):
             continue
         told += 1
-        young = said.get(robot, Series()).between(order.at - AGE - FRAME, order.at)
+        young = said.get(robot, Series()).between(order.at - AGE, order.at)
         newest = max((stamp for stamp, command in young if says(command, order)), default=None)
         if newest is not None:
             basis[robot].add(order.at, newest)

@@ -1,4 +1,7 @@
 //! One writer at a time on a topic that robots are driven by.
+//!
+//! Who says what cannot count, as no number, the future or what is long past, takes nobody's place by it: look at a message between
+//! [`Master::check`] and [`Master::pin`].
 
 use crate::{Source, Steady};
 

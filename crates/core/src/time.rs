@@ -24,11 +24,20 @@ impl Times {
     /// What was seen so far ahead of our clock, s, was stamped by a wrong one: those after it would be older.
     pub const FUTURE: f64 = 0.5;
 
+    /// Who tells of what was longer ago than this, s, is not who robots are driven by now.
+    pub const PAST: f64 = 1.0;
+
     /// How far `stamp` is in the future, s, if that is more than [`Self::FUTURE`]. While ROS time is zero nobody knows (/clock has not begun).
     #[must_use]
     pub fn from_the_future(self, stamp: RosTime) -> Option<f64> {
         let ahead = stamp.seconds_since(self.ros);
         (self.ros != RosTime(0) && ahead > Self::FUTURE).then_some(ahead)
+    }
+
+    /// Whether `stamp` is longer ago than [`Self::PAST`]. While ROS time is zero nobody knows.
+    #[must_use]
+    pub fn is_past(self, stamp: RosTime) -> bool {
+        self.ros != RosTime(0) && self.ros.seconds_since(stamp) > Self::PAST
     }
 }
 

@@ -231,10 +231,10 @@ impl Topics {
         }
     }
 
-    /// Says something of a topic in the name of the first node that reads it.
+    /// Says of a topic that somebody writes it for nothing, in the name of the first node that reads it.
     fn warn(&self, index: usize, nodes: &mut [Node], text: impl FnOnce(&str) -> String) {
         if let Some(node) = self.all[index].listeners.first().and_then(|first| nodes.get_mut(first.node)) {
-            node.warn(&text(self.all[index].subscription.topic()));
+            node.topic_unread(text(self.all[index].subscription.topic()));
         }
     }
 

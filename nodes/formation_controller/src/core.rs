@@ -110,9 +110,25 @@ impl FormationController {
         if let Some(name) = port.checked_sub(OTHERS).and_then(|index| self.others.get(index)) {
             self.tick.inputs.voices.hear(name, source.gid, at.steady);
         }
-        if matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES | LINK) || port >= OTHERS {
-            self.masters.entry(port).or_default().admit(source, at.steady)?;
+        if !(matches!(port, TEAM_STATE | GOALS | APPARENT_OBSTACLES | LINK) || port >= OTHERS) {
+            return self.understand(at, port, source, cdr);
         }
+        self.masters.entry(port).or_default().check(source, at.steady, Master::SILENCE)?;
+        let taken = self.understand(at, port, source, cdr);
+        let master = self.masters.entry(port).or_default();
+        let counts = match &taken {
+            Ok(_) => !self.tick.inputs.stamp(port).is_some_and(|stamp| at.is_past(stamp)),
+            Err(Dropped::Refused(refusal)) => refusal.is_late() && master.is(source),
+            Err(_) => false,
+        };
+        if counts {
+            master.pin(source, at.steady);
+        }
+        taken
+    }
+
+    /// Takes a message of somebody who may write it.
+    fn understand(&mut self, at: Times, port: usize, source: Source, cdr: &[u8]) -> Result<bool, Dropped> {
         let inputs = &mut self.tick.inputs;
         let mut urgent = port == TEAM_STATE;
         match port {

@@ -24,3 +24,10 @@ pub(crate) enum Refusal {
     #[error("a number in it is not finite")]
     NotFinite,
 }
+
+impl Refusal {
+    /// Whether who says so is there all the same, and merely late or of another order: a master stays one.
+    pub(crate) const fn is_late(self) -> bool {
+        matches!(self, Self::Past(_) | Self::Epoch { .. } | Self::Formation)
+    }
+}

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
     Advertise, Event, Files, Health, Interface, JumpWatch, Local, Master, NodeContext, NodeCore, NodeDescription,
-    NotMaster, Qos, Refusals, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
+    NotMaster, Qos, Refusals, RosTime, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
 };
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
@@ -44,6 +44,10 @@ enum Dropped {
     NotMaster(#[from] NotMaster),
     #[error("a number in it is not finite")]
     NotFinite,
+    #[error("it is {0:.3} s from the future")]
+    Future(f64),
+    #[error("it is more than {past} s old", past = Times::PAST)]
+    Past,
 }
 
 /// Who goes where, and when.
@@ -148,22 +152,25 @@ fn interface(robots: &[String]) -> Interface {
 impl LeaderAssignment {
     fn take(&mut self, at: Times, port: usize, source: Source, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), Dropped> {
         // Formations are asked for by whoever likes.
-        if port != SET_FORMATION {
-            self.masters.entry(port).or_default().admit(source, at.steady)?;
+        if port == SET_FORMATION {
+            self.formation_asked(at, &Formation::decode(cdr)?, sink);
+            return Ok(());
         }
-        match port {
-            TEAM_STATE => {
-                let team = TeamState::decode(cdr)?;
-                if !team.is_finite() {
-                    return Err(Dropped::NotFinite);
-                }
-                self.tick(at, team, sink);
-            }
-            TARGET => self.hear_target(at, &Odometry::decode(cdr)?, sink),
-            SET_FORMATION => self.formation_asked(at, &Formation::decode(cdr)?, sink),
-            _ => self.hear_of_robot(at, port - ROBOTS, cdr)?,
+        self.masters.entry(port).or_default().check(source, at.steady, Master::SILENCE)?;
+        if self.understand(at, port, cdr, sink)? {
+            self.masters.entry(port).or_default().pin(source, at.steady);
         }
         Ok(())
+    }
+
+    /// Takes a message of somebody who may write it; whether it counts.
+    fn understand(&mut self, at: Times, port: usize, cdr: &[u8], sink: &mut dyn Sink) -> Result<bool, Dropped> {
+        match port {
+            TEAM_STATE => self.tick(at, readable(at, cdr)?, sink),
+            TARGET => return Ok(self.hear_target(at, &Odometry::decode(cdr)?, sink)),
+            _ => self.hear_of_robot(at, port - ROBOTS, cdr)?,
+        }
+        Ok(true)
     }
 
     fn hear_of_robot(&mut self, at: Times, index: usize, cdr: &[u8]) -> Result<(), CdrError> {
@@ -177,13 +184,30 @@ impl LeaderAssignment {
         Ok(())
     }
 
-    /// A robot that is the target (parameter `target.robot`) is heard of with the team; others say where they are.
-    fn hear_target(&mut self, at: Times, odometry: &Odometry, sink: &mut dyn Sink) {
-        if self.settings.target_robot.is_empty() {
-            let heard = self.target.hear(at, odometry);
-            self.judge_target(heard, sink);
+    /// A robot that is the target (parameter `target.robot`) is heard of with the team; others say where they are. Whether that is
+    /// believed.
+    fn hear_target(&mut self, at: Times, odometry: &Odometry, sink: &mut dyn Sink) -> bool {
+        if !self.settings.target_robot.is_empty() {
+            return false;
         }
+        let heard = self.target.hear(at, odometry);
+        let is_believed = heard.is_ok();
+        self.judge_target(heard, sink);
+        is_believed
     }
+}
+
+/// A team state that goals can be made of.
+fn readable(at: Times, cdr: &[u8]) -> Result<TeamState, Dropped> {
+    let team = TeamState::decode(cdr)?;
+    let stamp = RosTime::from(&team.header.stamp);
+    if !team.is_finite() {
+        return Err(Dropped::NotFinite);
+    }
+    if let Some(ahead) = at.from_the_future(stamp) {
+        return Err(Dropped::Future(ahead));
+    }
+    if at.is_past(stamp) { Err(Dropped::Past) } else { Ok(team) }
 }
 
 impl NodeCore for LeaderAssignment {

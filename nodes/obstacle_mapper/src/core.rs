@@ -2,7 +2,7 @@
 
 use crate::markers::{PICTURES, Picture};
 use crate::report::Report;
-use crate::scans::{Clusters, Memory, check, locate};
+use crate::scans::{Clusters, Memory, Watch, check, locate};
 use crate::settings::{ScanSettings, Settings, descriptors};
 use crate::sources::{Known, Sources};
 use crate::team::{Team, Whereabouts};
@@ -51,6 +51,8 @@ pub struct ObstacleMapper {
     /// Scans that are newer than the last team state, with the robot and when they came.
     waiting: VecDeque<(usize, LaserScan, Steady)>,
     memory: Memory,
+    /// Whose lasers have fallen silent.
+    watch: Watch,
     clusters: Clusters,
     health: Health,
     of_obstacles: Report,
@@ -106,6 +108,7 @@ impl ObstacleMapper {
             localizer: Master::default(),
             waiting: VecDeque::new(),
             memory: Memory::default(),
+            watch: Watch::default(),
             clusters: Clusters::default(),
             health: Health::new(resolve_name("~", &context.namespace, &context.name)),
             of_obstacles: Report::new("obstacles"),
@@ -118,10 +121,12 @@ impl ObstacleMapper {
         })
     }
 
-    /// A cycle: all that is known now, combined.
+    /// A cycle: all that is known now, combined. While somebody is silent who must speak, hulls would be without what only that one
+    /// knows of, and as fresh as ever: none go out, so that controllers rest.
     fn publish(&mut self, at: Times, sink: &mut dyn Sink) {
         self.wakeup = Some(at.steady.plus_seconds(self.settings.period));
         self.sources.forget(at);
+        let waits = self.waits(at, sink);
         self.memory.expire(at.steady, self.settings.scans.memory);
         let mut known: Vec<Known> = self.sources.at(at).collect();
         let ScanSettings { gap, longest, .. } = self.settings.scans;
@@ -149,10 +154,23 @@ impl ObstacleMapper {
                 sink.publish(MARKERS, &markers);
             }
         }
+        if waits {
+            return;
+        }
         let header = Header { stamp: at.ros.into(), frame_id: "map".to_owned() };
         let clearance = self.settings.clearance;
         let members = known.iter().map(Known::to_message).collect();
         sink.publish(APPARENT_OBSTACLES, &ApparentObstacleArray { header, clearance, obstacles: apparent, members });
+    }
+
+    /// Whether somebody is silent who must speak; says who.
+    fn waits(&mut self, at: Times, sink: &mut dyn Sink) -> bool {
+        let Settings { sources, source_age, scan_age, ref robots, .. } = self.settings;
+        let untold = self.sources.silence(at, sources, source_age);
+        let unseen = self.watch.silence(at.steady, scan_age, robots, &self.team);
+        // Both are told of.
+        self.of_obstacles.wait(at.steady, untold, &mut self.health, sink)
+            | self.of_scans.wait(at.steady, unseen, &mut self.health, sink)
     }
 
     fn diagnose(&mut self, hulls: usize) {
@@ -199,6 +217,7 @@ impl ObstacleMapper {
         match admitted {
             Ok(message) => {
                 self.team.take(&message);
+                self.watch.excuse(at.steady, &self.settings.robots, &self.team);
                 self.take_scans(at, sink);
             }
             Err(error) => {
@@ -258,6 +277,7 @@ impl ObstacleMapper {
             let beams = locate(&scan, pose, &bodies, known, &self.settings.scans, &mut self.points);
             let all = self.memory.see(at.steady, &self.points);
             self.memory.clear(at.steady, &beams);
+            self.watch.saw(robot, came, pose);
             self.scans_taken += 1;
             if all {
                 self.of_scans.accept("scans are taken", &mut self.health);

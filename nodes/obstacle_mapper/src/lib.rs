@@ -11,6 +11,7 @@
 //! | scans to points of the map, without robots' bodies | `scans/intake` |
 //! | points kept for a while, cleared where rays pass | `scans/memory` |
 //! | points to partial boundaries (Remark 7.4.1) that keep their ids | `scans/clusters` |
+//! | lasers that fall silent while their robots drive on | `scans/watch` |
 //! | walls that bend leave corridors open (9.2) | `scans/walls` |
 //! | pictures | `markers` |
 

@@ -12,7 +12,16 @@ pub(crate) struct Settings {
     /// Between two messages, s.
     pub(crate) period: f64,
     pub(crate) scans: ScanSettings,
+    /// How many publishers of /obstacles must be heard, or robots rest.
+    pub(crate) sources: usize,
+    /// The longest silence of a publisher that counts as heard, s.
+    pub(crate) source_age: f64,
+    /// The longest silence of the laser of a robot that moves, s; 0: no silence is too long.
+    pub(crate) scan_age: f64,
 }
+
+/// Lasers that turn slower than this, s, are none: a shorter silence is between two scans.
+const SHORTEST_SILENCE: f64 = 0.1;
 
 /// How scans become obstacles.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,6 +63,15 @@ pub(crate) fn descriptors() -> Vec<P> {
         )
         .range(0.1, 1000.0),
         P::double("scan.memory", 3.0, "s, how long what no laser sees any more is kept").range(0.1, 3600.0),
+        P::integer(
+            "sources",
+            0,
+            "publishers of /obstacles that must be heard, or nothing is published and robots rest",
+        )
+        .range(0.0, 100.0),
+        P::double("age.sources", 0.5, "s, silence after which a publisher of /obstacles is not heard").range(0.1, 60.0),
+        P::double("age.scan", 0.5, "s, silence of a moving robot's laser after which nothing is published; 0: never")
+            .range(0.0, 60.0),
     ]
 }
 
@@ -73,6 +91,23 @@ impl Settings {
                 longest: parameters.f64("scan.longest")?,
                 memory: parameters.f64("scan.memory")?,
             },
+            sources: parameters.usize("sources")?,
+            source_age: parameters.f64("age.sources")?,
+            scan_age: scan_age(parameters)?,
         })
     }
+}
+
+/// Silence must be noticed while there still is what the laser saw.
+fn scan_age(parameters: &Parameters) -> Result<f64, ConfigError> {
+    let (age, memory) = (parameters.f64("age.scan")?, parameters.f64("scan.memory")?);
+    if age > 0.0 && age < SHORTEST_SILENCE {
+        let remedy = format!("write {SHORTEST_SILENCE} or more, or 0 for never");
+        return Err(parameters.error("age.scan", "is shorter than from one scan to the next", remedy));
+    }
+    if age > memory {
+        let problem = format!("is longer than scan.memory = {memory}: what a silent laser saw is forgotten before");
+        return Err(parameters.error("age.scan", problem, format!("write at most {memory}")));
+    }
+    Ok(age)
 }

@@ -56,6 +56,12 @@ impl Team {
         self.moments.push_back(Moment { stamp, robots });
     }
 
+    /// Where a robot is by the newest team state, unless it is lost or in doubt there.
+    pub(crate) fn newest(&self, robot: &str) -> Option<Pose2> {
+        let newest = self.moments.back()?;
+        newest.robots.iter().find(|(name, _)| name == robot).map(|(_, pose)| *pose)
+    }
+
     /// Where a robot was at a time, between two team states by interpolation.
     pub(crate) fn whereabouts(&self, robot: &str, at: RosTime) -> Whereabouts {
         let Some((before, after)) = self.around(at) else {

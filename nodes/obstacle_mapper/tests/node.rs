@@ -1,6 +1,9 @@
 //! The node as its neighbours see it: obstacles and scans in, apparent obstacles out.
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[path = "cases/silence.rs"]
+mod silence;
+
 use obstacle_mapper::description;
 use trench_config::params::{Source as Setting, resolve};
 use trench_config::{ConfigError, Parameters};

@@ -75,9 +75,9 @@ impl RfBridge {
     }
 
     pub(crate) fn checkpoint(&self, sink: &mut dyn Sink) {
-        let mut bytes = [0; 9];
-        bytes[..8].copy_from_slice(&self.downlink.promised().to_le_bytes());
-        bytes[8] = u8::from(self.stop.active());
+        let mut bytes = self.downlink.promised().to_le_bytes().to_vec();
+        bytes.push(u8::from(self.stop.active()));
+        bytes.extend(self.stop.said_stop().flatten());
         sink.checkpoint(&bytes);
     }
 

@@ -6,7 +6,7 @@ use crate::interface::{COMMANDS, DIAGNOSTICS, EMERGENCY_STOP, RUN_STATE};
 use crate::robot::{Dated, Robot};
 use crate::run::Run;
 use crate::settings::Tuning;
-use crate::stop::EmergencyStop;
+use crate::stop::{EmergencyStop, News};
 use crate::welcome::Hellos;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{Event, Health, Interface, Level, Master, NodeCore, Refusals, RosTime, Sink, Source, Steady, Times};
@@ -82,11 +82,11 @@ impl RfBridge {
                     self.refusals.tell(at.steady, port, text.to_owned(), &mut self.health, sink);
                 }
             }
-            EMERGENCY_STOP => {
-                if self.stop.hear(source.gid, Bool::decode(cdr)?.data) {
-                    self.begin_stop(at, sink);
-                }
-            }
+            EMERGENCY_STOP => match self.stop.hear(source.gid, Bool::decode(cdr)?.data) {
+                Some(News::Begins) => self.begin_stop(at, sink),
+                Some(News::Words) => self.checkpoint(sink),
+                None => {}
+            },
             _ if port == COMMANDS + self.robots.len() => {
                 let message = Identify::decode(cdr)?;
                 match self.localizer.admit(source, at.steady) {
@@ -179,6 +179,7 @@ impl NodeCore for RfBridge {
                     sink.log(Level::Warn, shortage);
                 }
                 self.heartbeat_at = at.steady.plus_seconds(self.tuning.heartbeat);
+                self.stop.start(at.steady);
                 if self.stop.active() {
                     self.begin_stop(at, sink);
                 }
@@ -206,7 +207,7 @@ impl NodeCore for RfBridge {
                 self.run.presence(gid, is_there);
                 self.rest_unless_running(at, was_running, sink);
             }
-            Event::Presence { port: EMERGENCY_STOP, gid, is_there: false } => self.stop.left(gid),
+            Event::Presence { port: EMERGENCY_STOP, gid, is_there } => self.stop.presence(gid, is_there),
             Event::Wakeup => self.wake(at, sink),
             Event::Shutdown => {
                 self.run.forget();

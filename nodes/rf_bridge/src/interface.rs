@@ -50,7 +50,7 @@ pub fn description() -> NodeDescription {
 
 fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> Result<Box<dyn NodeCore>, StartError> {
     let settings = Settings::read(parameters, files)?;
-    let (promised, stopped) = restored(context.checkpoint.as_deref());
+    let (promised, stop) = restored(context.checkpoint.as_deref().unwrap_or_default());
     Ok(Box::new(RfBridge {
         interface: interface(&settings),
         tuning: settings.tuning,
@@ -70,7 +70,7 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
         run: Run::default(),
         localizer: Master::default(),
         turning: None,
-        stop: EmergencyStop::restored(stopped),
+        stop,
         reset_until: None,
         gathered_at: None,
         heartbeat_at: Steady::default(),
@@ -81,12 +81,12 @@ fn build(context: &NodeContext, parameters: &Parameters, files: &dyn Files) -> R
     }))
 }
 
-/// The promised counter and the emergency stop of the last life: eight bytes and one.
-fn restored(checkpoint: Option<&[u8]>) -> (u64, bool) {
-    match checkpoint.and_then(|bytes| bytes.split_first_chunk::<8>()) {
-        Some((counter, rest)) => (u64::from_le_bytes(*counter), rest.first().is_some_and(|stopped| *stopped != 0)),
-        None => (0, false),
-    }
+/// The promised counter and the emergency stop of the last life: eight bytes and one, and sixteen for each who said stop.
+fn restored(checkpoint: &[u8]) -> (u64, EmergencyStop) {
+    let Some((counter, rest)) = checkpoint.split_first_chunk() else { return (0, EmergencyStop::default()) };
+    let (stopped, said_stop) = rest.split_first().unwrap_or((&0, &[]));
+    let stop = EmergencyStop::restored(*stopped != 0, said_stop.as_chunks().0.iter().copied());
+    (u64::from_le_bytes(*counter), stop)
 }
 
 fn interface(settings: &Settings) -> Interface {

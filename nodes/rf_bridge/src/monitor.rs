@@ -81,7 +81,9 @@ impl Monitor {
             let round_trip = (at.steady.seconds_since(sent.at) - 1e-3 * f64::from(report.last_age_ms)).max(0.0);
             let weight = if self.round_trip == 0.0 { 1.0 } else { SMOOTHING };
             self.round_trip += weight * (round_trip - self.round_trip);
-            self.round_trips.retain(|(then, _)| at.steady.seconds_since(*then) <= WINDOW);
+            while self.round_trips.front().is_some_and(|(then, _)| at.steady.seconds_since(*then) > WINDOW) {
+                self.round_trips.pop_front();
+            }
             self.round_trips.push_back((at.steady, round_trip));
         }
         // Of a robot that was silent for long nobody knows why.
@@ -92,10 +94,11 @@ impl Monitor {
         })
     }
 
-    /// The shortest round trip of the second before its last report, s; 0 before any is known. No packet took longer than its own
-    /// round trip.
-    pub(crate) fn least_round_trip(&self) -> f64 {
-        self.round_trips.iter().map(|(_, round_trip)| *round_trip).reduce(f64::min).unwrap_or(0.0)
+    /// The shortest round trip of the last second, s; none where no report has named a packet of ours. No packet took longer than its
+    /// own round trip.
+    pub(crate) fn least_round_trip(&self, now: Steady) -> Option<f64> {
+        let lately = self.round_trips.iter().filter(|(then, _)| now.seconds_since(*then) <= WINDOW);
+        lately.map(|(_, round_trip)| *round_trip).reduce(f64::min)
     }
 
     /// How many more reports are overdue than were when this was asked before; `since`: from when on they would have been heard.

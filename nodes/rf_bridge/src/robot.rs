@@ -176,9 +176,14 @@ impl Robot {
     }
 
     /// What the next frame tells it. It arrives after `line` seconds at the latest, and the time in the air; or, where that is more,
-    /// after what a report and the packet that it names took lately: whoever holds all packets back does not make them younger.
+    /// after what a report and the packet that it names took lately: whoever holds all packets back does not make them younger. Until
+    /// that is known, nobody drives: how old a packet is when it comes only the robot can tell, and only by the ones before.
     pub(crate) fn order(&mut self, now: Steady, line: f64, tuning: &Tuning) -> Order {
-        let transport = line.max(self.monitor.least_round_trip()) + tuning.radio_delay;
+        let Some(round_trip) = self.monitor.least_round_trip(now) else {
+            self.halt();
+            return Order::Stop;
+        };
+        let transport = line.max(round_trip) + tuning.radio_delay;
         let obeying = self.driven_at.is_some_and(|at| now.seconds_since(at) <= tuning.frame_age);
         let Some(command) = self.command.take() else {
             if obeying {

@@ -34,9 +34,16 @@ impl Run {
         let same_run = |other: &Word| word.t0.0 != 0 && other.t0 == word.t0;
         self.0.retain(|other| other.publisher != publisher && !same_run(other));
         if self.0.len() >= MOST {
-            self.0.pop_front();
+            self.0.remove(self.least());
         }
         self.0.push_back(word);
+    }
+
+    /// Whose word is missed least: of somebody who has gone; else of one who does not say that it runs, so that whoever does, ours among
+    /// them, is not drowned out; else the oldest.
+    fn least(&self) -> usize {
+        let first = |is: fn(&Word) -> bool| self.0.iter().position(is);
+        first(|word| word.gone).or_else(|| first(|word| !word.running)).unwrap_or(0)
     }
 
     /// A publisher has come, or gone.
@@ -108,6 +115,28 @@ mod tests {
         // A later life of ours.
         check(&[(1, going), (3, stopped)], false);
         check(&[(1, going), (3, going), (3, stopped)], false);
+    }
+
+    #[test]
+    fn twenty_strangers_do_not_make_our_word_unsaid() {
+        let running = |run: &mut Run, publisher: u8, state: u8| {
+            run.hear([publisher; 16], &RunState { state, t0: RosTime(7).into(), ..RunState::default() });
+            run.is_running()
+        };
+        let stranger = |run: &mut Run, publisher: u8, state: u8, goes: bool| {
+            run.hear([publisher; 16], &RunState { state, ..RunState::default() });
+            if goes {
+                run.presence([publisher; 16], false);
+            }
+        };
+        for (state, goes) in [(RunState::IDLE, true), (RunState::IDLE, false), (RunState::RUNNING, true)] {
+            let mut run = Run::default();
+            (100..120).for_each(|publisher| stranger(&mut run, publisher, state, goes));
+            assert!(running(&mut run, 1, RunState::RUNNING));
+            (120..140).for_each(|publisher| stranger(&mut run, publisher, state, goes));
+            assert!(run.is_running(), "{state} {goes}");
+            assert!(!running(&mut run, 1, RunState::STOPPED), "{state} {goes}");
+        }
     }
 
     #[test]

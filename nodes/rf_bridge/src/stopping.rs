@@ -16,8 +16,9 @@ impl RfBridge {
     pub(crate) fn begin_stop(&mut self, at: Times, sink: &mut dyn Sink) {
         sink.log(Level::Warn, "emergency stop");
         self.reset_until = None;
-        self.checkpoint(sink);
+        // The file may have to wait for a disk, the robots not.
         self.repeat(at, sink);
+        self.checkpoint(sink);
         self.diagnose(at.steady);
     }
 
@@ -45,7 +46,7 @@ impl RfBridge {
     }
 
     pub(crate) fn reset(&mut self, at: Times, sink: &mut dyn Sink) -> TriggerResponse {
-        match self.stop.reset() {
+        match self.stop.reset(at.steady) {
             Ok(()) => {
                 sink.log(Level::Info, "the emergency stop is over");
                 self.reset_until = Some(at.steady.plus_seconds(RESET_PATIENCE));

@@ -1,6 +1,7 @@
 //! The node core: lets the world go on whenever something is due, and publishes what comes out.
 
 use crate::frames::Picture;
+use crate::hush::Unsaid;
 use crate::interface::Ports;
 use crate::messages;
 use crate::settings::Settings;
@@ -24,6 +25,8 @@ pub struct Testbed {
     pub(crate) settings: Settings,
     /// The world, from the node's start on.
     bed: Option<Bed>,
+    /// When it started, ns of the monotonic clock.
+    began: u64,
     /// Where the numbers come from that its robots draw: another in each process, but in lock-step.
     nonces: u64,
     /// One a camera; none if nothing is rendered.
@@ -57,6 +60,7 @@ impl Testbed {
             random: Random::new(settings.bed.seed, 2),
             renderers,
             bed: None,
+            began: 0,
             nonces: context.seed,
             last_frame: None,
             pictures: VecDeque::new(),
@@ -79,6 +83,7 @@ impl Testbed {
     fn start(&mut self, at: Times, sink: &mut dyn Sink) {
         let mut setup = self.settings.bed.clone();
         setup.start = at.steady.0;
+        self.began = at.steady.0;
         setup.nonces = self.nonces;
         sink.log(Level::Info, &format!("{} robots, base station at {}", setup.robots.len(), self.settings.link));
         self.bed = Some(Bed::new(setup));
@@ -110,7 +115,10 @@ impl Testbed {
     }
 
     fn scan(&self, at: Times, scan: Scan, sink: &mut dyn Sink) {
-        let Settings { robots, bed, .. } = &self.settings;
+        let Settings { robots, bed, hushes, .. } = &self.settings;
+        if !hushes.tell_scans(self.since_start(scan.at), scan.robot) {
+            return;
+        }
         let laser = bed.lasers.iter().position(|robot| *robot == scan.robot);
         if let (Some(name), Some(laser)) = (robots.get(scan.robot), laser) {
             let message = messages::scan(ros(at, scan.at), name, &bed.laser, scan.ranges);
@@ -118,9 +126,15 @@ impl Testbed {
         }
     }
 
+    /// An instant of the monotonic clock as faults count it.
+    pub(crate) fn since_start(&self, instant: u64) -> u64 {
+        instant.saturating_sub(self.began)
+    }
+
     /// Says what is wrong on purpose.
     fn tell_faults(&mut self, at: Times, bed: &Bed) {
-        let names: Vec<&str> = bed.faults_at(at.steady.0).map(FaultKind::name).collect();
+        let unsaid = self.settings.hushes.at(self.since_start(at.steady.0)).map(Unsaid::name);
+        let names: Vec<&str> = bed.faults_at(at.steady.0).map(FaultKind::name).chain(unsaid).collect();
         match names.is_empty() {
             true => self.health.set("faults", Condition::Ok, "none"),
             false => self.health.set("faults", Condition::Warn, names.join(", ")),

@@ -90,7 +90,8 @@ impl Testbed {
             let info = messages::camera_info(stamp, &view.frame_id(), view.camera.lens());
             sink.publish(self.ports.cameras[camera].info, &info);
         }
-        if let Some(port) = self.ports.obstacles {
+        let told = self.settings.hushes.tell_obstacles(self.since_start(at.steady.0));
+        if let Some(port) = self.ports.obstacles.filter(|_| told) {
             sink.publish(port, &messages::obstacles(stamp, &frame.obstacles));
         }
         if let Some(port) = self.ports.clock {

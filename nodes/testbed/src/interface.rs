@@ -96,8 +96,8 @@ fn interface(settings: &Settings) -> (Interface, Ports) {
         CameraPorts { info, frames }
     };
     let cameras = settings.cameras.iter().map(camera).collect();
-    let obstacles = (settings.publish_obstacles && !settings.bed.obstacles.is_empty())
-        .then(|| advertise("/obstacles", ObstacleArray::TYPE, Qos::RELIABLE, network));
+    let obstacles =
+        settings.publish_obstacles.then(|| advertise("/obstacles", ObstacleArray::TYPE, Qos::RELIABLE, network));
     let clock = settings.publish_clock.then(|| advertise("/clock", Clock::TYPE, Qos::RELIABLE, network));
     let truth = publications.len();
     for robot in &settings.robots {

@@ -9,6 +9,7 @@ mod core;
 mod detections;
 mod faults;
 mod frames;
+mod hush;
 mod interface;
 mod messages;
 mod obstacles;

@@ -5,6 +5,8 @@ mod ages;
 #[path = "cases/air.rs"]
 mod air;
 mod common;
+#[path = "cases/hushes.rs"]
+mod hushes;
 #[path = "cases/relays.rs"]
 mod relays;
 #[path = "cases/switched.rs"]
@@ -32,6 +34,8 @@ fn two_robots() -> Loop {
 fn running() -> Loop {
     let mut both = two_robots();
     both.run_state(RunState::RUNNING);
+    // Nobody drives before reports have said how long the way is.
+    both.run(300);
     both
 }
 
@@ -44,7 +48,7 @@ fn commanded_speeds_appear_at_the_wheels_within_the_latency_budget() {
         &NO_FILES,
     );
     both.run_state(RunState::RUNNING);
-    both.run(50);
+    both.run(300);
     let sent_at = both.now;
     both.drive(15, 1, 0.07, 0.0);
     let first = both.track(1).into_iter().find(|(.., v)| *v > 0.05).unwrap();
@@ -376,6 +380,9 @@ fn an_emergency_stop_outlives_the_bridge() {
     let place = both.place(1);
     both.drive(30, 2, 0.07, 0.0);
     assert_eq!(both.place(1), place, "still stopped");
+    both.presence("/emergency_stop", 9, true);
+    assert!(!both.reset().success, "who said stop to the first life is still there and has not taken it back");
+    both.emergency_stop(9, false);
     assert!(both.reset().success);
     both.drive(30, 2, 0.07, 0.0);
     assert!(both.place(1).0 > place.0 + 0.04, "its packets are newer than those of the first life");

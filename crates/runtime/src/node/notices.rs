@@ -1,5 +1,5 @@
 //! What the runtime itself notices, and says on /diagnostics in the node's name: a wall clock that is set, packets that are none,
-//! routers that are gone.
+//! routers that are gone, writers of which a reader gets nothing.
 
 use super::Node;
 use crate::clock::{steady_now, wall_now};
@@ -86,6 +86,13 @@ impl Node {
         let level = if is_there { Level::Warn } else { Level::Error };
         self.ports.log(level, &format!("network: {text}"));
         self.tell(vec![("network", condition, text)]);
+    }
+
+    /// Says on its standard error and on /diagnostics that somebody writes a topic of which this node gets nothing.
+    pub(crate) fn topic_unread(&mut self, text: String) {
+        self.ports.warn(&text);
+        self.notices.told.insert("topics", steady_now());
+        self.tell(vec![("topics", Condition::Warn, text)]);
     }
 
     fn tell(&mut self, news: Vec<Notice>) {

@@ -166,7 +166,7 @@ impl Node {
         let known = reference.estimate.at(steady_now());
         let of = reference.of.clone();
         if let Some(known) = known {
-            self.ports.clock.refer(known.offset);
+            self.ports.clock.refer(known.latest());
         }
         match heard {
             Ok(false) => {}

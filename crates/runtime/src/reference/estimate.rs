@@ -31,6 +31,13 @@ pub(crate) struct Offset {
     pub(crate) bound: i64,
 }
 
+impl Offset {
+    /// The most that the other clock may be ahead, ns: by it nothing looks younger than it is, however badly the clock is known.
+    pub(crate) const fn latest(self) -> i64 {
+        self.offset.saturating_add(self.bound)
+    }
+}
+
 /// The exchanges of the last time.
 #[derive(Debug, Default)]
 pub(crate) struct Estimate {
@@ -110,6 +117,10 @@ mod tests {
             let known = estimate.at(Steady(2_000_000)).unwrap();
             assert!((known.offset - AHEAD).abs() <= known.bound, "{out} {home}: {known:?}");
             assert!(known.bound <= 1000 + (out + home) as i64 * 500, "{known:?}");
+            assert!(
+                (AHEAD..=AHEAD + 2 * known.bound).contains(&known.latest()),
+                "nothing is older than it looks: {known:?}"
+            );
         }
     }
 

@@ -40,7 +40,7 @@ impl Said {
         self.0.as_ref().map_or(0, |heard| heard.message.epoch)
     }
 
-    fn stamp(&self) -> Option<RosTime> {
+    pub(super) fn stamp(&self) -> Option<RosTime> {
         Some(RosTime::from(&self.0.as_ref()?.message.header.stamp))
     }
 

@@ -13,6 +13,7 @@ pub(crate) use orders::Orders;
 pub(crate) use teammates::{Ahead, Others, Spoken};
 pub(crate) use voices::Voices;
 
+use crate::ports::{APPARENT_OBSTACLES, GOALS, TEAM_STATE};
 use crate::refusal::Refusal;
 use crate::segments::Segments;
 use stamps::timely;
@@ -81,6 +82,16 @@ impl Inputs {
         timely(at, message.stamp, self.obstacles.as_ref().map(|before| before.message.stamp))?;
         self.obstacles = Some(Heard { at: at.steady, message });
         Ok(())
+    }
+
+    /// When that was which the newest message on this port tells of, where that drives the robot.
+    pub(crate) fn stamp(&self, port: usize) -> Option<RosTime> {
+        match port {
+            TEAM_STATE => self.team.as_ref().map(|heard| RosTime::from(&heard.message.header.stamp)),
+            GOALS => self.goals.stamp(),
+            APPARENT_OBSTACLES => self.obstacles.as_ref().map(|heard| heard.message.stamp),
+            _ => None,
+        }
     }
 
     /// Seconds between ticks.

@@ -261,3 +261,38 @@ fn what_is_carried_forward_drives_nobody_for_long() {
     assert_eq!(driven(200_000_000), (true, 240.0));
     assert_eq!(driven(220_000_000), (false, 260.0));
 }
+
+/// Who speaks nonsense fifty times a second does not have the place of a localizer that dies, nor of one that comes later.
+#[test]
+fn nonsense_takes_nobodys_place() {
+    let nonsense: [&dyn Fn(&mut TeamState); 3] = [
+        &|team| team.robots[0].x = f64::NAN,
+        &|team| team.header.stamp = RosTime(0).plus_seconds(7200.0).into(),
+        &|team| team.header.stamp = RosTime(0).plus_seconds(1.0).into(),
+    ];
+    for (index, spoil) in nonsense.into_iter().enumerate() {
+        for is_first in [false, true] {
+            let mut bench = Bench::new();
+            let frames = |bench: &mut Bench, count: u32, gid: Option<u8>| {
+                for _ in 0..count {
+                    bench.running();
+                    let mut strange = bench.team(RobotState::STATUS_TRACKED, 0.0);
+                    spoil(&mut strange);
+                    bench.send_from([9; 16], "/team_state", &strange.to_cdr());
+                    if let Some(gid) = gid {
+                        let team = bench.team(RobotState::STATUS_TRACKED, 0.0);
+                        bench.send_from([gid; 16], "/team_state", &team.to_cdr());
+                    }
+                    bench.seconds += PERIOD;
+                }
+            };
+            if !is_first {
+                frames(&mut bench, 10, Some(1));
+            }
+            // The localizer is dead for 0.7 s, and another one comes.
+            frames(&mut bench, 21, None);
+            frames(&mut bench, 6, Some(2));
+            assert!(bench.last_command().twist.linear.x > 0.0, "{index} {is_first}: {}", bench.says());
+        }
+    }
+}

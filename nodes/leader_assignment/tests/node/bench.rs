@@ -3,7 +3,9 @@
 use leader_assignment::description;
 use trench_config::params::{Source, resolve};
 use trench_config::{ConfigError, Parameters};
-use trench_core::{Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Steady, Times};
+use trench_core::{
+    Action, Event, Files, NodeContext, NodeCore, Outbox, RequestId, RosTime, Source as From, Steady, Times,
+};
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
 use trench_msgs::msg::{
     Assignment, LeaderState, LinkStatus, RobotState, SetFormationRequest, SetFormationResponse, TeamState,
@@ -105,9 +107,14 @@ impl Bench {
     }
 
     pub(crate) fn send(&mut self, topic: &str, message: &dyn Encode) {
+        self.send_from([0; 16], topic, message);
+    }
+
+    /// A message of the writer `gid`.
+    pub(crate) fn send_from(&mut self, gid: [u8; 16], topic: &str, message: &dyn Encode) {
         let port = self.core.interface().subscriptions.iter().position(|subscribe| subscribe.topic == topic).unwrap();
         let cdr = message.to_cdr();
-        self.handle(Event::Message { port, source: Default::default(), cdr: &cdr, arrived: None });
+        self.handle(Event::Message { port, source: From { gid, sequence: 0 }, cdr: &cdr, arrived: None });
     }
 
     pub(crate) fn see(&mut self, status: u8) {

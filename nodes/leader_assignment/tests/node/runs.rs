@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, FILE, ROBOTS, make, said};
 use trench_core::{Event, RosTime};
-use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState};
+use trench_msgs::msg::{Assignment, Goal, Goals, RobotState, RunState, TeamState};
 use trench_msgs::visualization_msgs::MarkerArray;
 
 #[test]
@@ -48,6 +48,24 @@ fn nobody_arms_robots_that_are_not_seen() {
     bench.see(RobotState::STATUS_LOST);
     let refused = bench.call("arm");
     assert_eq!(refused.message, "not localised: robot1, robot2, robot3, robot4");
+}
+
+/// A stranger who speaks before the localizer does, of what nobody can have seen, neither begins a run nor has its place.
+#[test]
+fn who_tells_of_another_time_takes_nobodys_place() {
+    for stamp in [7200.0, 1.0] {
+        let mut bench = Bench::new(100.0, None);
+        for _ in 0..10 {
+            let mut team = TeamState::default();
+            team.header.stamp = RosTime(0).plus_seconds(stamp).into();
+            bench.send_from([9; 16], "/team_state", &team);
+            assert_eq!(bench.last::<RunState>("/run_state").map_or(RosTime(0), |run| (&run.t0).into()), RosTime(0));
+            bench.seconds += 0.02;
+        }
+        bench.see(RobotState::STATUS_TRACKED);
+        let armed = bench.call("arm");
+        assert!(armed.success, "{stamp}: {armed:?}");
+    }
 }
 
 #[test]

@@ -50,6 +50,16 @@ impl Sources {
         self.speakers.len() < before
     }
 
+    /// What is wrong if fewer than `needed` publishers have said something usable within `age` (s).
+    pub(crate) fn silence(&self, at: Times, needed: usize, age: f64) -> Option<String> {
+        let heard = self.speakers.iter().filter(|speaker| speaker.is_heard(at, age)).count();
+        (heard < needed).then(|| {
+            format!(
+                "{heard} of {needed} publishers of /obstacles heard within {age} s: robots rest (sources, age.sources)"
+            )
+        })
+    }
+
     /// Publishers whose obstacles are kept although as many have gone.
     pub(crate) fn orphans(&self) -> usize {
         self.writers.map_or(0, |writers| self.speakers.len().saturating_sub(writers))

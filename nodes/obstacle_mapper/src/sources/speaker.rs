@@ -24,6 +24,8 @@ pub(super) struct Speaker {
     offset: u32,
     stamp: Option<RosTime>,
     heard: Steady,
+    /// When a message of it could be used last.
+    taken: Option<Steady>,
     /// Its longest silence so far, s, once it has spoken twice.
     rhythm: Option<f64>,
     known: Vec<Known>,
@@ -33,7 +35,8 @@ pub(super) struct Speaker {
 impl Speaker {
     pub(super) fn new(gid: [u8; 16], number: u32, at: Times) -> Self {
         let offset = number.wrapping_mul(IDS_A_SOURCE);
-        Self { gid, offset, stamp: None, heard: at.steady, rhythm: None, known: Vec::new(), complaints: Vec::new() }
+        let (known, complaints) = (Vec::new(), Vec::new());
+        Self { gid, offset, stamp: None, heard: at.steady, taken: None, rhythm: None, known, complaints }
     }
 
     /// Takes a message; gives what is wrong with it.
@@ -51,7 +54,12 @@ impl Speaker {
             Some(reason) => vec![reason],
             None => {
                 self.stamp = Some(stamp);
-                self.replace(message)
+                let complaints = self.replace(message);
+                // Who tells of obstacles none of which is one has told of nothing.
+                if message.obstacles.is_empty() || !self.known.is_empty() {
+                    self.taken = Some(at.steady);
+                }
+                complaints
             }
         };
         self.complaints.clone()
@@ -95,6 +103,11 @@ impl Speaker {
 
     pub(super) fn silence(&self, at: Times) -> f64 {
         at.steady.seconds_since(self.heard)
+    }
+
+    /// Whether something usable came from it within so many seconds.
+    pub(super) fn is_heard(&self, at: Times, within: f64) -> bool {
+        self.taken.is_some_and(|taken| at.steady.seconds_since(taken) <= within)
     }
 
     /// Whether it is silent for longer than its rhythm explains; `alone`: nobody is connected any more.
