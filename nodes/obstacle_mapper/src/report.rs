@@ -37,7 +37,7 @@ impl Report {
         self.refused += 1;
         self.wrong = Some(what.to_owned());
         self.tell(health);
-        self.log(what, sink);
+        self.say(what, sink);
     }
 
     /// What comes is used.
@@ -58,7 +58,7 @@ impl Report {
         let (since, logged) = before.map_or((at, false), |silence| (silence.since, silence.logged));
         let lasts = at.seconds_since(since) >= LASTING;
         if lasts && !logged {
-            self.log(&what, sink);
+            self.say(&what, sink);
         }
         self.silence = Some(Silence { what, since, logged: logged || lasts });
         self.tell(health);
@@ -78,7 +78,7 @@ impl Report {
         }
     }
 
-    fn log(&mut self, what: &str, sink: &mut dyn Sink) {
+    fn say(&mut self, what: &str, sink: &mut dyn Sink) {
         if self.said.len() < MOST_KINDS && self.said.insert(what.to_owned()) {
             sink.log(Level::Warn, what);
         }
