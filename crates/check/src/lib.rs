@@ -6,7 +6,10 @@
 mod approach;
 mod bounds;
 mod chain;
+mod clearance;
 mod controller;
+mod damping;
+mod damping_of_scenario;
 mod direction;
 mod gains;
 mod gaps;
@@ -16,6 +19,7 @@ mod limits;
 mod passing;
 mod potential;
 mod queue;
+mod queue_of_scenario;
 mod report;
 mod room;
 mod scenario;

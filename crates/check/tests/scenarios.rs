@@ -318,6 +318,7 @@ fn who_may_leave_is_named() {
         robots: 2,
         gains: (2.0, 3.0),
         initial_error: 0.02,
+        by_rank: &[],
         tolerance: 0.06,
         setting_out: 0.064_583,
         acceleration: None,
