@@ -54,7 +54,12 @@ pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
     let (bound, loose) = (of(&bounds), of(&recursive));
     let mended = if !chain.by_rank.is_empty() && rest == chain.robots {
         // Longer chains are of robots that nobody knows.
-        if holds { String::new() } else { format!(": {longest} robots from the first on stay within") }
+        match longest {
+            _ if holds => String::new(),
+            0 => ": not even the first stays within".to_owned(),
+            1 => ": the first alone stays within".to_owned(),
+            _ => format!(": the first {longest} stay within"),
+        }
     } else if holds {
         format!(", as {}{longest} robots in one chain would", if longest < computed { "up to " } else { "" })
     } else if longest >= rest {

@@ -24,7 +24,10 @@ pub(crate) fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Op
     };
     let needed = number(width.max(poles));
     if task.clearance < width {
-        return verdict(false, format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {needed} m"));
+        return verdict(
+            false,
+            format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {needed} m"),
+        );
     }
     if task.clearance < poles {
         let finding = format!(

@@ -65,7 +65,8 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
     let damping = parameters.f64("damping")?;
     if matches!(law, "zoned" | "chain") {
         verdicts.push(zones(name, parameters.f64_array("zones.radii")?, parameters.f64("body.radius")?));
-        verdicts.extend(damped(trench_pull(&trench, parameters)?, parameters)?.map(|damped| chain_damping(name, &damped)));
+        verdicts
+            .extend(damped(trench_pull(&trench, parameters)?, parameters)?.map(|damped| chain_damping(name, &damped)));
     } else if law != "goal_damped" {
         let finding = format!("k = {}: V' = -k |r'|^2", number(damping));
         verdicts.push(Verdict::new("damping", name, damping > 0.0, finding, "k > 0 (Theorem 5.3.1, A.10)"));

@@ -43,7 +43,7 @@ const AMONG_ROBOTS: [Measured; 2] = [
 ];
 /// With obstacles between; against weaker zones these tear chains apart.
 const AMONG_OBSTACLES: [Measured; 1] =
-    [Measured { share: 0.4, robots: 10, zones: [0.25, 30.0], obstacles: [0.7, 90.0] }];
+    [Measured { share: 0.4, robots: 10, zones: [0.25, 300.0], obstacles: [0.7, 90.0] }];
 /// Walls whose largest force is less than this many pulls have not been measured.
 const FULL: f64 = 10.0;
 /// Beyond so many widths of zones, and of obstacles, chains whipped.
@@ -62,15 +62,12 @@ impl Damped {
         (narrow, self.obstacles.map(|potential| potential.cut() - potential.pole()))
     }
 
-    /// The longest way that was measured not to whip, m.
+    /// The longest way that was measured not to whip, m; of chains like no other, with which most did not.
     fn enough_way(&self) -> f64 {
-        match self.widths() {
-            (zones, Some(obstacles)) => AMONG_OBSTACLES[0].share * zones.min(obstacles),
-            (zones, None) => {
-                let long = self.robots.is_some_and(|robots| robots > AMONG_ROBOTS[0].robots);
-                AMONG_ROBOTS[usize::from(long)].share * zones
-            }
-        }
+        let all = self.all_measured();
+        let share = self.measured().or(all.last()).map_or(0.0, |measured| measured.share);
+        let (zones, obstacles) = self.widths();
+        share * zones.min(obstacles.unwrap_or(f64::INFINITY))
     }
 
     /// The k that makes the way as short as that, with c as it is: k (k + c) = pull/way.
@@ -97,8 +94,11 @@ impl Damped {
 
     /// What was measured of chains like this one, with the longest way that did not whip.
     fn measured(&self) -> Option<&'static Measured> {
-        let all: &[Measured] = if self.obstacles.is_some() { &AMONG_OBSTACLES } else { &AMONG_ROBOTS };
-        all.iter().find(|measured| self.is_like(measured))
+        self.all_measured().iter().find(|measured| self.is_like(measured))
+    }
+
+    fn all_measured(&self) -> &'static [Measured] {
+        if self.obstacles.is_some() { &AMONG_OBSTACLES } else { &AMONG_ROBOTS }
     }
 }
 
@@ -111,16 +111,16 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
     }
     let (zones, obstacles) = of.widths();
     let (zones, obstacles) = (of.way() / zones, obstacles.map(|width| of.way() / width));
-    let told = obstacles.map_or(String::new(), |share| format!(" and {} of that of obstacles", number(share)));
+    let told = obstacles.map_or(String::new(), |share| format!(" and {} of those of obstacles", number(share)));
     let finding = format!(
-        "k = {k}, c = {c}: who is drawn by {} m/s^2 runs on for {} m, {} of the width of zones{told}",
+        "k = {k}, c = {c}: who is drawn by {} m/s^2 runs on for {} m, {} widths of zones{told}",
         number(of.pull),
         number(of.way()),
         number(zones)
     );
     if zones > WHIPS[0] || obstacles.is_some_and(|share| share > WHIPS[1]) {
         let finding = format!(
-            "{finding}: walls are elastic, and of chains with as much nearly all whipped, into zone 1 and past rho_check; k = {} makes it {} m",
+            "{finding}: walls act as elastic ones, and of the chains that were measured with as much nearly all whipped, into zone 1 or past rho_check; make k {}, and the way {} m",
             number(of.enough()),
             number(of.enough_way())
         );
@@ -131,14 +131,17 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
         Some(measured) if worst <= measured.share => {
             let chains = match of.robots {
                 Some(_) => format!("chains of up to {} robots", measured.robots),
-                None => format!("chains of up to {} robots (how many there will be is not known here)", measured.robots),
+                None => {
+                    format!("chains of up to {} robots (how many there will be is not known here)", measured.robots)
+                }
             };
-            let finding = format!("{finding}: up to {} of it {chains} did not whip", number(measured.share));
+            let finding =
+                format!("{finding}: up to {} {chains} that were measured did not whip", number(measured.share));
             Verdict::new("damping", name, true, finding, EQUATION)
         }
         Some(measured) => {
             let finding = format!(
-                "{finding}: up to {} chains were seen not to whip, and far beyond it to whip; between nothing is known: run it, or k = {} makes it {} m",
+                "{finding}: chains were measured not to whip up to {}, and to whip far beyond; of what is between nothing is known: run it, or make k {}, and the way {} m",
                 number(measured.share),
                 number(of.enough()),
                 number(of.enough_way())
@@ -147,7 +150,7 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
         }
         None => {
             let finding = format!(
-                "{finding}: whether such a chain whips has not been measured, for its walls, against this pull, or its robots are not like those of 7.10; run it"
+                "{finding}: nothing like it was measured, for its walls push back weaker or stronger against this pull, or it has more robots; whether it whips is not known: run it"
             );
             Verdict::noted("damping", name, finding, EQUATION)
         }

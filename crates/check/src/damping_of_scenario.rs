@@ -32,9 +32,11 @@ pub(crate) fn damped_nearest(task: &ChainScenario<AnyTrench>) -> Damped {
         let own = frame.inverse_transform_point(&robot.position.into()).coords;
         task.segment.nearest(own).distance
     };
-    let first = task.robots.first().zip(task.team_goal).map_or(0.0, |(robot, goal)| {
-        (frame.transform_point(&goal.into()).coords - robot.position).norm()
-    });
+    let first = task
+        .robots
+        .first()
+        .zip(task.team_goal)
+        .map_or(0.0, |(robot, goal)| (frame.transform_point(&goal.into()).coords - robot.position).norm());
     let farthest = task.robots.iter().map(nearest).fold(first, f64::max);
     let (limits, pull) = (task.options.limits, pull(&task.law.trench, farthest) / least_sine(task));
     Damped {

@@ -24,6 +24,8 @@ mod report;
 mod room;
 mod scenario;
 mod standing;
+mod step;
+mod step_of_scenario;
 mod stiffness;
 mod team;
 mod transits;

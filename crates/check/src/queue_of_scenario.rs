@@ -53,7 +53,8 @@ pub(crate) fn goal_of_queue(subject: &str, Queue { queue, .. }: &Queue) -> Optio
         return None;
     }
     let (away, spacing) = (number(foot.distance), number(queue.spacing));
-    let first = format!("the first place is [{:.4}, {:.4}], the nearest point of the segment", foot.point.x, foot.point.y);
+    let first =
+        format!("the first place is [{:.4}, {:.4}], the nearest point of the segment", foot.point.x, foot.point.y);
     Some(if foot.distance > queue.spacing {
         let finding = format!(
             "target is {away} m away from the segment, and spacing is {spacing} m: {first}, and nobody comes near the target; write a point of \

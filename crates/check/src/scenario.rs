@@ -10,6 +10,7 @@ use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
 use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
+use crate::step_of_scenario::step;
 use crate::transits::transits;
 use crate::verdict::number;
 use crate::walls_of_scenario::{walls_of_directed, walls_of_nearest};
@@ -30,6 +31,12 @@ pub(crate) const RANGE: f64 = 100.0;
 
 /// Judges a simulation before it runs. Scenarios of launch files have nothing of their own: check the launch file.
 pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
+    let mut verdicts = of_task(subject, scenario);
+    verdicts.extend(step(subject, scenario));
+    verdicts
+}
+
+fn of_task(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     match &scenario.task {
         Task::Regulating(task) => {
             task.cases.iter().flat_map(|case| law(&named(subject, &case.name), case.law)).collect()
@@ -74,7 +81,7 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     }
 }
 
-fn named(subject: &str, case: &str) -> String {
+pub(crate) fn named(subject: &str, case: &str) -> String {
     if case.is_empty() { subject.to_owned() } else { format!("{subject}, case {case}") }
 }
 
