@@ -109,6 +109,11 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
         let finding = format!("k = {k}: V' = -k |r'|^2, and one robot is no chain that could whip");
         return Verdict::new("damping", name, of.damping > 0.0, finding, "k > 0 (A.18)");
     }
+    // Nothing ends a way without damping.
+    if !(of.damping > 0.0 && of.damping + of.leader_damping > 0.0) {
+        let finding = format!("k = {k}, c = {c}: nothing slows robots down; make k {} or more", number(of.enough()));
+        return Verdict::new("damping", name, false, finding, "k > 0 (A.12, A.18)");
+    }
     let (zones, obstacles) = of.widths();
     let (zones, obstacles) = (of.way() / zones, obstacles.map(|width| of.way() / width));
     let told = obstacles.map_or(String::new(), |share| format!(" and {} of those of obstacles", number(share)));
