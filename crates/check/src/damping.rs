@@ -37,9 +37,11 @@ struct Measured {
 }
 
 /// Among zones alone.
-const AMONG_ROBOTS: [Measured; 2] = [
+const AMONG_ROBOTS: [Measured; 3] = [
     Measured { share: 1.0, robots: 10, zones: [0.003, 30.0], obstacles: [0.0, 0.0] },
-    Measured { share: 0.5, robots: 60, zones: [0.001, 300.0], obstacles: [0.0, 0.0] },
+    Measured { share: 0.5, robots: 10, zones: [0.001, 300.0], obstacles: [0.0, 0.0] },
+    // What each adds to what came from ahead is passed on: strong walls add more.
+    Measured { share: 0.5, robots: 60, zones: [0.003, 0.35], obstacles: [0.0, 0.0] },
 ];
 /// With obstacles between; against weaker zones these tear chains apart.
 const AMONG_OBSTACLES: [Measured; 1] =

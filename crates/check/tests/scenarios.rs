@@ -392,10 +392,17 @@ fn chains_that_whip_are_not_said_not_to() {
     // Weak zones are torn apart by strong obstacles, at whatever was enough for stronger ones.
     let torn = of("7.10_obstacles.yaml", &[("\n  beta: 10.0", "\n  beta: 1.0")]);
     assert!(torn.holds && torn.note && torn.finding.contains("nothing like it was measured"), "{torn:?}");
-    // Sixty robots whipped with k = 2, with which ten did not.
+    // Thirty robots whipped with k = 2, with which ten did not; among strong zones also with a way of half a width.
     let robots: String = (0..20).map(|one| format!("- {{position: [{0}.0, {0}.0]}}\n", -6 * (one + 2))).collect();
-    let long = of("7.10.yaml", &[("figures:\n", &format!("{robots}figures:\n"))]);
-    assert!(long.holds && long.note, "{long:?}");
+    let long = ("figures:\n", format!("{robots}figures:\n"));
+    let long = |edits: &[(&str, &str)]| of("7.10.yaml", &[edits, &[(long.0, &long.1)]].concat());
+    let whips = long(&[]);
+    assert!(whips.holds && whips.note && whips.finding.contains("nothing is known"), "{whips:?}");
+    let damped = long(&[("damping: 2.0", "damping: 2.6")]);
+    assert!(damped.holds && !damped.note && damped.finding.contains("up to 60 robots"), "{damped:?}");
+    let strong =
+        long(&[("damping: 2.0", "damping: 2.6"), ("alpha: 10.0\n  beta: 10.0", "alpha: 1000.0\n  beta: 1000.0")]);
+    assert!(strong.note && strong.finding.contains("nothing like it was measured"), "{strong:?}");
     for name in
         ["6.5.yaml", "6.5_k_5.yaml", "7.10.yaml", "7.10_obstacles.yaml", "7.10_fragments.yaml", "7.13_open.yaml"]
     {

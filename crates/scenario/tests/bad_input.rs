@@ -348,7 +348,7 @@ fn robots_begin_in_places_of_their_own() {
         let robots = text.split("\nrobots:").nth(1).unwrap();
         let lines: Vec<&str> = robots.lines().filter(|line| line.starts_with("- {")).collect();
         let other = text.replacen(lines[0], first, 1).replacen(lines[1], second, 1);
-        parse(name, &other).map_err(|error| (error.origin.line as usize, error.to_string(), other))
+        parse(name, &other).map_err(|error| (error.origin.line, error.to_string(), other))
     };
     for (name, first, second, tolerance) in [
         ("8.4_queue.yaml", "- {position: [35.0, 6.0]}", "- {position: [35.0, 6.04]}", "0.05"),
