@@ -100,8 +100,8 @@ fn files_that_cannot_be_read_are_told_alike() {
         (missing, ["No such file or directory", readable]),
         (inner.display().to_string(), ["Is a directory", readable]),
         (path("latin.yaml", b"name: \xe9\n"), ["valid UTF-8", readable]),
-        (path("tab.yaml", b"name: a\n\tkind: queue\n"), ["tab.yaml:2:", ""]),
-        (path("bracket.yaml", b"name: a\nrobots: [1, 2\n"), ["bracket.yaml:", ""]),
+        (path("tab.yaml", b"name: a\n\tkind: queue\n"), ["tab.yaml:1:", "at column 7"]),
+        (path("bracket.yaml", b"name: a\nrobots: [1, 2\n"), ["bracket.yaml:3:", "at column 1"]),
     ] {
         let checked = told("check", &path);
         assert!(parts.iter().all(|part| checked.contains(part)), "{checked}");
@@ -116,6 +116,8 @@ fn files_that_cannot_be_read_are_told_alike() {
         formation.contains("describes no run: give a bag, a table (.csv) of trench sim, or a scenario"),
         "{formation}"
     );
+    let nothing = told("plot", &folder.path().join("bag").display().to_string());
+    assert!(nothing.contains("does not exist; give a bag (folder or .mcap file)"), "{nothing}");
     let launch = told("plot", "launch/square.launch.yaml");
     assert!(launch.contains("is a launch file, whose node cores run in trench sim"), "{launch}");
 }

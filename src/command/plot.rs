@@ -67,6 +67,8 @@ enum PlotError {
     Launch(PathBuf),
     #[error("{}: describes no run: give a bag, a table (.csv) of trench sim, or a scenario (kind:)", .0.display())]
     NoRun(PathBuf),
+    #[error("{}: does not exist; give a bag (folder or .mcap file), a table (.csv) of trench sim, or a scenario (.yaml)", .0.display())]
+    Missing(PathBuf),
 }
 
 /// Draws diagrams of quantities over one horizontal axis, one below the other, as SVG. The legend names the curves in
@@ -198,6 +200,9 @@ fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
         let text = Disk.read("FILE", &path.display().to_string())?;
         let run = Run::from_csv(&text).map_err(|source| PlotError::Table { path: path.to_owned(), source });
         return Ok((run?, None));
+    }
+    if !path.exists() {
+        return Err(PlotError::Missing(path.to_owned()));
     }
     let bag = BagReader::open(path)?;
     for damage in bag.damage() {
