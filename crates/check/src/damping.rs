@@ -34,18 +34,20 @@ struct Measured {
     robots: usize,
     zones: [f64; 2],
     obstacles: [f64; 2],
+    /// The largest c/k.
+    leader: f64,
 }
 
 /// Among zones alone.
 const AMONG_ROBOTS: [Measured; 3] = [
-    Measured { share: 1.0, robots: 10, zones: [0.003, 30.0], obstacles: [0.0, 0.0] },
-    Measured { share: 0.5, robots: 10, zones: [0.001, 300.0], obstacles: [0.0, 0.0] },
+    Measured { share: 1.0, robots: 10, zones: [0.003, 30.0], obstacles: [0.0, 0.0], leader: 100.0 },
+    Measured { share: 0.5, robots: 10, zones: [0.001, 300.0], obstacles: [0.0, 0.0], leader: 0.0 },
     // What each adds to what came from ahead is passed on: strong walls add more.
-    Measured { share: 0.5, robots: 60, zones: [0.003, 0.35], obstacles: [0.0, 0.0] },
+    Measured { share: 0.5, robots: 60, zones: [0.003, 0.35], obstacles: [0.0, 0.0], leader: 0.0 },
 ];
 /// With obstacles between; against weaker zones these tear chains apart.
 const AMONG_OBSTACLES: [Measured; 1] =
-    [Measured { share: 0.4, robots: 10, zones: [0.25, 300.0], obstacles: [0.7, 90.0] }];
+    [Measured { share: 0.4, robots: 10, zones: [0.25, 300.0], obstacles: [0.7, 90.0], leader: 1.8 }];
 /// Walls whose largest force is less than this many pulls have not been measured.
 const FULL: f64 = 10.0;
 /// Beyond so many widths of zones, and of obstacles, chains whipped.
@@ -91,6 +93,7 @@ impl Damped {
             && within(halfway(radii.rho, radii.rho_check), measured.zones)
             && self.zones.full_acceleration() >= FULL * self.pull
             && self.robots.is_none_or(|robots| robots <= measured.robots)
+            && self.leader_damping <= measured.leader * self.damping
             && of_obstacles
     }
 
@@ -157,7 +160,7 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
         }
         None => {
             let finding = format!(
-                "{finding}: nothing like it was measured, for its walls push back weaker or stronger against this pull, or it has more robots; whether it whips is not known: run it"
+                "{finding}: nothing like it was measured, for its walls push back weaker or stronger against this pull, it has more robots, or more c beside k; whether it whips is not known: run it"
             );
             Verdict::noted("damping", name, finding, EQUATION)
         }

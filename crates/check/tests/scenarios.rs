@@ -389,6 +389,9 @@ fn chains_that_whip_are_not_said_not_to() {
     // k = 3.5 whipped, 4 was torn, 4.47 was neither: nobody knows where between it ends.
     let between = of("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 4.0")]);
     assert!(between.holds && between.note && between.finding.contains("nothing is known"), "{between:?}");
+    // c is no substitute for k among obstacles: 0.38 widths, and 0.07 m from one another.
+    let led = of("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 2.0\nleader_damping: 11.0")]);
+    assert!(led.note && led.finding.contains("or more c beside k"), "{led:?}");
     // Weak zones are torn apart by strong obstacles, at whatever was enough for stronger ones.
     let torn = of("7.10_obstacles.yaml", &[("\n  beta: 10.0", "\n  beta: 1.0")]);
     assert!(torn.holds && torn.note && torn.finding.contains("nothing like it was measured"), "{torn:?}");
