@@ -78,6 +78,50 @@ fn what_cannot_be_read_is_named_with_its_line() {
     assert_eq!(check(&[]).status.code(), Some(2));
 }
 
+/// Whatever reads a file says the same of one that is none, and where what is no YAML is wrong.
+#[test]
+fn files_that_cannot_be_read_are_told_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.display().to_string()
+    };
+    let missing = folder.path().join("missing.yaml").display().to_string();
+    let inner = folder.path().join("folder.yaml");
+    std::fs::create_dir(&inner).unwrap();
+    let told = |subcommand: &str, path: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_trench")).args([subcommand, path]).output().unwrap();
+        assert!(!output.status.success(), "{subcommand} {path}");
+        String::from_utf8(output.stderr).unwrap().replace(&format!("trench {subcommand}: "), "")
+    };
+    let readable = "name a file that exists and is text";
+    for (path, parts) in [
+        (missing, ["No such file or directory", readable]),
+        (inner.display().to_string(), ["Is a directory", readable]),
+        (path("latin.yaml", b"name: \xe9\n"), ["valid UTF-8", readable]),
+        (path("tab.yaml", b"name: a\n\tkind: queue\n"), ["tab.yaml:1:", "at column 7"]),
+        (path("bracket.yaml", b"name: a\nrobots: [1, 2\n"), ["bracket.yaml:3:", "at column 1"]),
+    ] {
+        let checked = told("check", &path);
+        assert!(parts.iter().all(|part| checked.contains(part)), "{checked}");
+        for subcommand in ["sim", "plot"] {
+            assert_eq!(told(subcommand, &path), checked);
+        }
+    }
+    // Empty, or of another kind: no launch file either.
+    assert_eq!(told("plot", &path("empty.yaml", b"")), told("check", &path("empty.yaml", b"")));
+    let formation = told("plot", "config/formations/square.yaml");
+    assert!(
+        formation.contains("describes no run: give a bag, a table (.csv) of trench sim, or a scenario"),
+        "{formation}"
+    );
+    let nothing = told("plot", &folder.path().join("bag").display().to_string());
+    assert!(nothing.contains("does not exist; give a bag (folder or .mcap file)"), "{nothing}");
+    let launch = told("plot", "launch/square.launch.yaml");
+    assert!(launch.contains("is a launch file, whose node cores run in trench sim"), "{launch}");
+}
+
 /// A file in a folder of its own, which a test names on its command line.
 fn written(folder: &tempfile::TempDir, text: &str) -> String {
     let path = folder.path().join("own.yaml");

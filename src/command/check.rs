@@ -8,7 +8,7 @@ mod kind;
 use super::say;
 use clap::Parser;
 use gather::{CheckError, Gathered, gather};
-use kind::kind;
+pub(super) use kind::{Kind, kind};
 use std::process::ExitCode;
 use trench_check::{Report, Verdict, controller, formation, gaps, scenario};
 

@@ -13,6 +13,7 @@ mod stack;
 mod style;
 mod trajectories;
 
+use super::check::{Kind, kind};
 use super::{say, sim};
 use clap::Args;
 use output::Format;
@@ -21,6 +22,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use trench_bag::run::{CsvError, Run};
 use trench_bag::{BagError, BagReader};
+use trench_core::Files;
+use trench_harness::Disk;
 use trench_scenario::{Drawing, Figure, Scenario, Task};
 
 /// Draws a run: trajectories, errors, snapshots and speeds over time.
@@ -60,8 +63,12 @@ enum PlotError {
     Simulation(#[from] sim::SimError),
     #[error(transparent)]
     Scenario(#[from] trench_config::ConfigError),
-    #[error("{}: node cores run in trench sim; record a bag there (--bag FOLDER) and plot that", .0.display())]
+    #[error("{}: is a launch file, whose node cores run in trench sim: record a bag there (--bag FOLDER) and plot that", .0.display())]
     Launch(PathBuf),
+    #[error("{}: describes no run: give a bag, a table (.csv) of trench sim, or a scenario (kind:)", .0.display())]
+    NoRun(PathBuf),
+    #[error("{}: does not exist; give a bag (folder or .mcap file), a table (.csv) of trench sim, or a scenario (.yaml)", .0.display())]
+    Missing(PathBuf),
 }
 
 /// Draws diagrams of quantities over one horizontal axis, one below the other, as SVG. The legend names the curves in
@@ -174,6 +181,13 @@ fn save(
 /// A run, and the scenario that it is of, if it is known.
 fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
     if path.extension().is_some_and(|extension| extension == "yaml") {
+        // What no file of ours is, is told first: only launch files are to be run elsewhere.
+        let name = path.display().to_string();
+        match kind(&name, &Disk.read("FILE", &name)?)? {
+            Kind::Scenario => {}
+            Kind::Launch => return Err(PlotError::Launch(path.to_owned())),
+            Kind::Formation | Kind::Parameters => return Err(PlotError::NoRun(path.to_owned())),
+        }
         let Some((scenario, text)) = sim::read(path)? else { return Err(PlotError::Launch(path.to_owned())) };
         if let Task::Launch(launch) = &scenario.task {
             return Ok((sim::launched(path, launch)?, Some(scenario)));
@@ -183,9 +197,12 @@ fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
         return Ok((done.run, Some(scenario)));
     }
     if path.extension().is_some_and(|extension| extension == "csv") {
-        let text = fs::read_to_string(path).map_err(|source| PlotError::Io { path: path.to_owned(), source })?;
+        let text = Disk.read("FILE", &path.display().to_string())?;
         let run = Run::from_csv(&text).map_err(|source| PlotError::Table { path: path.to_owned(), source });
         return Ok((run?, None));
+    }
+    if !path.exists() {
+        return Err(PlotError::Missing(path.to_owned()));
     }
     let bag = BagReader::open(path)?;
     for damage in bag.damage() {

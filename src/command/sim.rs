@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 use trench_bag::BagError;
 use trench_bag::run::{Run, SummaryOptions, summary};
-use trench_core::{Advertise, Level, Qos, Source, Steady, Times};
+use trench_core::{Advertise, Files, Level, Qos, Source, Steady, Times};
 use trench_harness::{BusError, Disk, Ending, LoadError, Lockstep, Observer, load_journalled, plan};
 use trench_journal::{Journals, Pace};
 use trench_scenario::{RunError, Scenario, Task};
@@ -168,13 +168,15 @@ fn refuse_ignored(arguments: &Arguments) -> Result<(), SimError> {
     ignored.map_or(Ok(()), |(ignored, remedy)| Err(SimError::Ignored { path: arguments.file.clone(), ignored, remedy }))
 }
 
-/// A scenario file with its text; nothing for launch files, whose own reader says what is wrong with them.
+/// A scenario file with its text; nothing for launch files, whose own reader says what is wrong with them. What is no YAML is neither.
 pub(in crate::command) fn read(file: &Path) -> Result<Option<(Scenario, String)>, SimError> {
-    let text = fs::read_to_string(file).map_err(|error| SimError::Io { path: file.to_owned(), error })?;
+    let name = file.display().to_string();
+    let text = Disk.read("FILE", &name)?;
+    trench_config::yaml::parse(&name, &text)?;
     if !trench_scenario::is_scenario(&text) {
         return Ok(None);
     }
-    let scenario = trench_scenario::parse(&file.display().to_string(), &text)?;
+    let scenario = trench_scenario::parse(&name, &text)?;
     Ok(Some((scenario, text)))
 }
 

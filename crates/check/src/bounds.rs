@@ -34,8 +34,9 @@ impl Bounds {
         let (mut bounds, longest) = loop {
             let bounds = uniform_bounds(&robot, Coupling::Realisable, &errors(chain, computed))?;
             let longest = longest_within(&bounds, chain.tolerance);
-            // Twice as many at a time: what slow chains cost grows with the square of their ranks.
-            match longest < computed || computed == LONGEST {
+            // Twice as many at a time: what slow chains cost grows with the square of their ranks. Of robots whose errors are known, each
+            // for itself, there are no more.
+            match longest < computed || computed == LONGEST || !chain.by_rank.is_empty() {
                 true => break (bounds, longest),
                 false => computed = (2 * computed).clamp(1, LONGEST),
             }
@@ -48,5 +49,8 @@ impl Bounds {
 
 /// |e_j(0)| of so many robots.
 fn errors(chain: &ChainOfRobots<'_>, robots: usize) -> Vec<f64> {
+    if !chain.by_rank.is_empty() {
+        return chain.by_rank.iter().copied().take(robots).collect();
+    }
     (0..robots).map(|rank| if rank == 0 { chain.first_error() } else { chain.initial_error }).collect()
 }

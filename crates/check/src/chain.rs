@@ -19,6 +19,9 @@ pub struct ChainOfRobots<'a> {
     pub gains: (f64, f64),
     /// |e(0)| of each robot: m and m/s together.
     pub initial_error: f64,
+    /// |e_j(0)| by rank, of as many as there are robots, where each is known: then `initial_error` and `setting_out` count for nothing. Else
+    /// empty.
+    pub by_rank: &'a [f64],
     /// m/s, at which the goal points set out from rest: the first robot's error has that much besides.
     pub setting_out: f64,
     /// The most that any |e| may become.
@@ -49,7 +52,15 @@ pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
     let (rank, verb) = if longest >= rest { (rest, "stays within") } else { (longest + 1, "may leave") };
     let of = |bounds: &[f64]| rank.checked_sub(1).and_then(|index| bounds.get(index)).copied().unwrap_or(0.0);
     let (bound, loose) = (of(&bounds), of(&recursive));
-    let mended = if holds {
+    let mended = if !chain.by_rank.is_empty() && rest == chain.robots {
+        // Longer chains are of robots that nobody knows.
+        match longest {
+            _ if holds => String::new(),
+            0 => ": not even the first stays within".to_owned(),
+            1 => ": the first alone stays within".to_owned(),
+            _ => format!(": the first {longest} stay within"),
+        }
+    } else if holds {
         format!(", as {}{longest} robots in one chain would", if longest < computed { "up to " } else { "" })
     } else if longest >= rest {
         format!(": ranks beyond {LONGEST} are not computed, and not promised anything")
@@ -59,10 +70,9 @@ pub fn chain(subject: &str, chain: &ChainOfRobots<'_>) -> Verdict {
     let ranks: Vec<String> = bounds.iter().take(TOLD).map(|bound| number(*bound)).collect();
     let more = if rest > TOLD { ", ..." } else { "" };
     let finding = format!(
-        "the linear queue law (8.11) with {} and errors of {}{} at the start: rank {rank} {verb} {} ({}; by (8.26) {}){mended}; by rank {}{more}{}{}",
+        "the linear queue law (8.11) with {} and errors of {} at the start: rank {rank} {verb} {} ({}; by (8.26) {}){mended}; by rank {}{more}{}{}",
         gains(chain),
-        number(chain.initial_error),
-        first(chain),
+        at_the_start(chain),
         number(chain.tolerance),
         number(bound),
         if loose < 1e6 { number(loose) } else { format!("{loose:.0e}") },
@@ -82,12 +92,17 @@ fn gains(chain: &ChainOfRobots<'_>) -> String {
     format!("K = ({}, {})", number(chain.gains.0), number(chain.gains.1))
 }
 
-fn first(chain: &ChainOfRobots<'_>) -> String {
+fn at_the_start(chain: &ChainOfRobots<'_>) -> String {
+    if !chain.by_rank.is_empty() {
+        let ranks: Vec<String> = chain.by_rank.iter().take(TOLD).map(|error| number(*error)).collect();
+        return ranks.join(", ") + if chain.by_rank.len() > TOLD { ", ..." } else { "" };
+    }
+    let each = number(chain.initial_error);
     if chain.setting_out <= 0.0 || chain.robots == 0 {
-        return String::new();
+        return each;
     }
     let (error, speed) = (number(chain.first_error()), number(chain.setting_out));
-    format!(" ({error} of the first, whose goal point sets out at {speed} m/s)")
+    format!("{each} ({error} of the first, whose goal point sets out at {speed} m/s)")
 }
 
 fn another_law(chain: &ChainOfRobots<'_>) -> String {

@@ -1,15 +1,16 @@
 //! One controller's law and its gains.
 
 use crate::Verdict;
+use crate::damping::{Damped, chain_damping};
 use crate::gains::{exponents, gains};
 use crate::limits::{Largest, of_controller};
 use crate::potential::potential;
 use crate::verdict::number;
-use crate::walls_of_controller::walls_of_controller;
+use crate::walls_of_controller::{potential_of_obstacles, reach, walls_of_controller, zoning};
 use crate::zones::zones;
 use trench_config::{ConfigError, Parameters};
 use trench_formation::laws::{Family, Robust};
-use trench_formation::trench::check_admissibility;
+use trench_formation::trench::{AnyTrench, check_admissibility};
 use trench_plan::{TRENCH_RANGE, trench_from_parameters};
 
 /// A formation_controller by its full name, with its parameters.
@@ -20,9 +21,6 @@ pub struct Controller {
     /// All its parameters.
     pub parameters: Parameters,
 }
-
-/// Chains with less damping than this (1/s) and none towards their leaders whip (ERRATA on 6.5 and 7.10).
-const LEAST_CHAIN_DAMPING: f64 = 2.0;
 
 /// Judges the law of a controller: gains, potential, zones, damping, limits.
 ///
@@ -67,8 +65,8 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
     let damping = parameters.f64("damping")?;
     if matches!(law, "zoned" | "chain") {
         verdicts.push(zones(name, parameters.f64_array("zones.radii")?, parameters.f64("body.radius")?));
-        let leader_damping = parameters.f64("leader_damping")?;
-        verdicts.push(chain_damping(name, damping, leader_damping));
+        verdicts
+            .extend(damped(trench_pull(&trench, parameters)?, parameters)?.map(|damped| chain_damping(name, &damped)));
     } else if law != "goal_damped" {
         let finding = format!("k = {}: V' = -k |r'|^2", number(damping));
         verdicts.push(Verdict::new("damping", name, damping > 0.0, finding, "k > 0 (Theorem 5.3.1, A.10)"));
@@ -87,18 +85,17 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
     Ok(verdicts)
 }
 
-/// Judges the damping of a chain with zones.
-pub(crate) fn chain_damping(name: &str, damping: f64, leader_damping: f64) -> Verdict {
-    let holds = damping >= LEAST_CHAIN_DAMPING || leader_damping >= 1.0;
-    let (k, c) = (number(damping), number(leader_damping));
-    let finding = if holds {
-        format!("k = {k}, c = {c}: the chain does not whip")
-    } else {
-        format!(
-            "k = {k}, c = {c}: zoning forces act as elastic walls and the chain whips; the nearest admissible k is {}, or set \
-             leader_damping to 1 or more",
-            number(LEAST_CHAIN_DAMPING)
-        )
-    };
-    Verdict::new("damping", name, holds, finding, "k >= 2 or c >= 1 (ERRATA on 6.5 and 7.10)")
+/// The trench's largest pull across the field, which robots follow up to their acceleration, m/s^2.
+fn trench_pull(trench: &AnyTrench, parameters: &Parameters) -> Result<f64, ConfigError> {
+    let pull = check_admissibility(trench, reach(parameters)?).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+    Ok(pull.min(parameters.f64("motion.acceleration")?))
+}
+
+/// What decides whether its chain whips; nothing where zones make no potential, which another verdict says.
+fn damped(pull: f64, parameters: &Parameters) -> Result<Option<Damped>, ConfigError> {
+    let obstacles = potential_of_obstacles(parameters)?;
+    let (damping, leader_damping) = (parameters.f64("damping")?, parameters.f64("leader_damping")?);
+    let speed = parameters.f64("motion.speed")?;
+    let of = |zones| Damped { damping, leader_damping, pull, speed, robots: None, zones, obstacles };
+    Ok(zoning(parameters)?.map(of))
 }

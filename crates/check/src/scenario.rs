@@ -1,32 +1,42 @@
 //! A scenario file: gains, potentials, zones, directions of attraction, room, chains.
 
-use crate::controller::chain_damping;
+use crate::clearance::clearance;
+use crate::damping::chain_damping;
+use crate::damping_of_scenario::{damped_directed, damped_nearest};
 use crate::goal::goal;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
+use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
+use crate::step_of_scenario::step;
 use crate::transits::transits;
 use crate::verdict::number;
 use crate::walls_of_scenario::{walls_of_directed, walls_of_nearest};
 use crate::zones::zones;
-use crate::{Approach, ChainOfRobots, Verdict, chain, direction, gains};
+use crate::{Approach, Verdict, direction, gains};
 use trench_formation::Vector2;
 use trench_formation::agent::Method;
 use trench_formation::curve::Placed;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
-use trench_formation::simulate::{ChainScenario, QueueRobotScenario};
+use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
 use trench_formation::zoning::Radii;
-use trench_scenario::{ChosenLaw, Directed, GoalLaw, Queue, Scenario, Task};
+use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
 
 /// Trenches are looked at up to this distance, m.
-const RANGE: f64 = 100.0;
+pub(crate) const RANGE: f64 = 100.0;
 
 /// Judges a simulation before it runs. Scenarios of launch files have nothing of their own: check the launch file.
 pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
+    let mut verdicts = of_task(subject, scenario);
+    verdicts.extend(step(subject, scenario));
+    verdicts
+}
+
+fn of_task(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     match &scenario.task {
         Task::Regulating(task) => {
             task.cases.iter().flat_map(|case| law(&named(subject, &case.name), case.law)).collect()
@@ -71,36 +81,7 @@ pub fn scenario(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     }
 }
 
-/// The bound of chapter 8, where robots are those that begin: nobody's error may be as large as the spacing, at which it could be in the
-/// place of the one ahead.
-fn queue(subject: &str, task: &Queue) -> Vec<Verdict> {
-    let Queue { queue, .. } = task;
-    let slots = queue.robots.iter().filter(|robot| robot.joins.is_none()).zip(0_u32..);
-    let error = |(robot, slot): (&QueueRobotScenario, u32)| {
-        let place = queue.segment.at(queue.first_place() - f64::from(slot) * queue.spacing).point;
-        PointState { position: place - robot.start.position, velocity: -robot.start.velocity }
-    };
-    let own: Vec<PointState> = slots.map(error).collect();
-    // (8.9): of the first robot from its place, of others from the one ahead.
-    let ahead = core::iter::once(PointState::at_rest(Vector2::zeros())).chain(own.iter().copied());
-    let norm = |(own, ahead): (&PointState, PointState)| {
-        libm::hypot((own.position - ahead.position).norm(), (own.velocity - ahead.velocity).norm())
-    };
-    let initial_error = own.iter().zip(ahead).map(norm).fold(0.0, f64::max);
-    let of = ChainOfRobots {
-        instead_of: None,
-        robots: own.len(),
-        gains: (queue.law.position_gain, queue.law.velocity_gain),
-        initial_error,
-        setting_out: 0.0,
-        tolerance: queue.spacing,
-        acceleration: None,
-    };
-    let found = chain(subject, &of);
-    vec![Verdict { holds: true, note: !found.holds, ..found }]
-}
-
-fn named(subject: &str, case: &str) -> String {
+pub(crate) fn named(subject: &str, case: &str) -> String {
     if case.is_empty() { subject.to_owned() } else { format!("{subject}, case {case}") }
 }
 
@@ -124,7 +105,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let mut verdicts = vec![
         potential(subject, &chain.law.trench, RANGE),
         zones(subject, [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar], 0.0),
-        chain_damping(subject, chain.law.damping, chain.law.leader_damping),
+        chain_damping(subject, &damped_directed(chain)),
     ];
     verdicts.extend(walls_of_directed(subject, chain));
     let robots = chain.robots.iter().zip(chain.directions.iter().copied());
@@ -145,7 +126,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec
             [radii.rho_underbar, radii.rho_hat, radii.rho, radii.rho_check, radii.rho_bar],
             body.unwrap_or(0.0),
         ),
-        chain_damping(subject, task.law.damping, task.law.leader_damping),
+        chain_damping(subject, &damped_nearest(task)),
     ];
     verdicts.extend(task.options.limits.map(|limits| actuators(subject, task, &limits)));
     verdicts.extend(walls_of_nearest(subject, task));
@@ -184,7 +165,8 @@ pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     let mut verdicts = match &scenario.task {
         Task::Directed(task) => feasibility_of_directed(subject, task),
         Task::Nearest(task, _) => feasibility_of_nearest(subject, task, scenario.timing.duration),
-        Task::Regulating(_) | Task::GoalTracking(_) | Task::Queue(_) | Task::Launch(_) => Vec::new(),
+        Task::Queue(task) => goal_of_queue(subject, task).into_iter().collect(),
+        Task::Regulating(_) | Task::GoalTracking(_) | Task::Launch(_) => Vec::new(),
     };
     verdicts.retain(|verdict| !verdict.holds);
     verdicts
@@ -232,23 +214,6 @@ pub(crate) fn steepest(trench: &AnyTrench) -> f64 {
 /// Radius of the robots' bodies, where the scenario says one.
 fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
     task.options.safety.map(|safety| safety.radius).or(task.encroaching.robot_radius())
-}
-
-/// Whether a robot passes all gaps that are left between hulls. Where no body is named, one that is as wide as zone 1 lets it be.
-fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Option<f64>) -> Verdict {
-    let width = body.map_or(task.zoning.radii().rho_underbar, |body| 2.0 * body);
-    let holds = task.clearance >= width;
-    let clearance = number(task.clearance);
-    let wide = match body {
-        Some(_) => format!("robots are {} m wide", number(width)),
-        None => format!("robots, whose bodies nothing names, are up to rho_underbar = {} m wide", number(width)),
-    };
-    let finding = if holds {
-        format!("hulls nearer than {clearance} m are combined, and {wide}: they pass what is left")
-    } else {
-        format!("hulls {clearance} m apart are not combined, but {wide}: make the clearance {} m", number(width))
-    };
-    Verdict::new("clearance", subject, holds, finding, "rho_clearance >= 2 R (7.8)")
 }
 
 /// Whether every robot begins within reach of its leader, or comes to it by itself.

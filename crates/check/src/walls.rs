@@ -88,7 +88,9 @@ pub(crate) fn walls(subject: &str, coming: &Coming, walls: &[Wall]) -> Option<Ve
     let thin: Vec<String> = walls.iter().filter_map(|wall| passed(wall, coming)).collect();
     Some(if thin.is_empty() {
         let (speed, because) = (number(coming.speed), coming.because);
-        let finding = format!("{stronger}, and so is who comes at {speed} m/s ({because})");
+        let finding = format!(
+            "{stronger}, and so is who comes at {speed} m/s ({because}) and is not pushed or pulled by other robots besides"
+        );
         Verdict::new("walls", subject, true, finding, EQUATION)
     } else {
         let finding = format!(

@@ -14,9 +14,7 @@ pub(crate) fn walls_of_controller(
     trench: &AnyTrench,
     parameters: &Parameters,
 ) -> Result<Option<Verdict>, ConfigError> {
-    let [low_x, low_y, high_x, high_y] = parameters.f64_array("field")?;
-    let reach = libm::hypot(high_x - low_x, high_y - low_y).clamp(1e-3, TRENCH_RANGE);
-    let pull = check_admissibility(trench, reach).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+    let pull = check_admissibility(trench, reach(parameters)?).map_or(f64::INFINITY, |found| found.lipschitz_constant);
     // Zones and obstacles that make no potential are for other verdicts, and for the node.
     let key = "zones.full_acceleration";
     let mut all: Vec<Wall> =
@@ -28,6 +26,12 @@ pub(crate) fn walls_of_controller(
     Ok(walls(name, &Coming { pull, speed, because }, &all))
 }
 
+/// As far as robots can be from what draws them, m: across the field.
+pub(crate) fn reach(parameters: &Parameters) -> Result<f64, ConfigError> {
+    let [low_x, low_y, high_x, high_y] = parameters.f64_array("field")?;
+    Ok(libm::hypot(high_x - low_x, high_y - low_y).clamp(1e-3, TRENCH_RANGE))
+}
+
 fn edge(parameters: &Parameters) -> Result<Edge, ConfigError> {
     Ok(if parameters.bool("zones.continuous")? { Edge::Continuous } else { Edge::Jump })
 }
@@ -36,7 +40,7 @@ fn sharpness(parameters: &Parameters) -> Result<Sharpness, ConfigError> {
     Ok(if parameters.i64("zones.sharpness")? == 1 { Sharpness::One } else { Sharpness::Two })
 }
 
-fn zoning(parameters: &Parameters) -> Result<Option<Zoning>, ConfigError> {
+pub(crate) fn zoning(parameters: &Parameters) -> Result<Option<Zoning>, ConfigError> {
     let [underbar, hat, rho, check, bar] = parameters.f64_array("zones.radii")?;
     let strength = (parameters.f64("zones.repulsion")?, parameters.f64("zones.attraction")?);
     let (sharpness, edge) = (sharpness(parameters)?, edge(parameters)?);
@@ -45,7 +49,7 @@ fn zoning(parameters: &Parameters) -> Result<Option<Zoning>, ConfigError> {
     Ok(radii.and_then(|radii| Zoning::new(radii, strength, sharpness, edge, full).ok()))
 }
 
-fn potential_of_obstacles(parameters: &Parameters) -> Result<Option<ObstaclePotential>, ConfigError> {
+pub(crate) fn potential_of_obstacles(parameters: &Parameters) -> Result<Option<ObstaclePotential>, ConfigError> {
     let (pole, cut) = (parameters.f64("obstacles.pole")?, parameters.f64("obstacles.cut")?);
     let (strength, full) = (parameters.f64("obstacles.strength")?, parameters.f64("zones.full_acceleration")?);
     Ok(ObstaclePotential::new(pole, cut, strength, sharpness(parameters)?, edge(parameters)?, full).ok())

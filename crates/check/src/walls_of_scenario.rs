@@ -48,6 +48,6 @@ fn coming(pull: f64, damping: f64, robots: &[PointState], still: Vector2<f64>, l
 }
 
 /// Sine of the least angle between the directions of attraction of a chain and its segment.
-fn least_turn(chain: &ZonedChainScenario<AnyTrench>) -> f64 {
+pub(crate) fn least_turn(chain: &ZonedChainScenario<AnyTrench>) -> f64 {
     chain.directions.iter().map(|along| along.normalize().perp(&chain.tangent).abs()).fold(1.0, f64::min)
 }

@@ -57,7 +57,7 @@ fn clearance_without_a_body() {
         "{shipped:?}"
     );
     let narrow = clearance("clearance: 2.0", "clearance: 0.5");
-    assert!(!narrow.holds && narrow.finding.contains("make the clearance 1 m"), "{narrow:?}");
+    assert!(!narrow.holds && narrow.finding.contains("make the clearance 2 m"), "{narrow:?}");
 }
 
 /// Neighbouring fragments share their places: five of them, on 10 m, with a place for one robot each, have room for three robots 4 m apart.
@@ -189,7 +189,7 @@ fn chains_that_do_not_fit() {
     check("6.5.yaml", "{position: [26.0026, 29.7094]", "{position: [-500.0, 529.7]", &[("connection", "r2 begins")]);
     // A chain that recovers may begin so; without recovery it may not.
     check("6.2.1_lost_chain.yaml", "recovery: {speed: 1.5}", "# ", &[("connection", "r2 begins 68.01")]);
-    check("7.10.yaml", "damping: 2.0", "damping: 1.0", &[("damping", "the chain whips")]);
+    check("7.10.yaml", "damping: 2.0", "damping: 1.0", &[("damping", "nearly all whipped")]);
     check(
         "9.2_bounded.yaml",
         "acceleration: 5.0}",
@@ -318,6 +318,7 @@ fn who_may_leave_is_named() {
         robots: 2,
         gains: (2.0, 3.0),
         initial_error: 0.02,
+        by_rank: &[],
         tolerance: 0.06,
         setting_out: 0.064_583,
         acceleration: None,
@@ -342,4 +343,179 @@ fn team_goals_are_within_reach_of_the_segment() {
             "{far:?}"
         );
     }
+}
+
+/// One verdict on a file.
+fn one(name: &str, text: &str, check: &str) -> Verdict {
+    let verdicts = scenario(name, &trench_scenario::parse(name, text).unwrap());
+    verdicts.into_iter().find(|verdict| verdict.check == check).unwrap()
+}
+
+fn file(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/../../config/scenarios/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// All of these came into zone 1, into obstacles, or lost their links, and every verdict held.
+#[test]
+fn chains_that_whip_are_not_said_not_to() {
+    let of = |name: &str, edits: &[(&str, &str)]| {
+        let text = edits.iter().fold(file(name), |text, (old, new)| {
+            assert!(text.contains(old), "{old}");
+            text.replace(old, new)
+        });
+        one(name, &text, "damping")
+    };
+    for (name, edits) in [
+        ("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 2.0")][..]),
+        ("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 3.0")]),
+        ("7.10.yaml", &[("damping: 2.0", "damping: 0.05\nleader_damping: 1.0")]),
+        ("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 1.0\nleader_damping: 1.0")]),
+        ("7.10.yaml", &[("hyperbolic, alpha: 10.0", "hyperbolic, alpha: 1000.0")]),
+    ] {
+        let whips = of(name, edits);
+        assert!(!whips.holds && whips.finding.contains("nearly all whipped"), "{whips:?}");
+        // What is advised is what was measured.
+        let advised = whips.finding.split("make k ").nth(1).unwrap().split(',').next().unwrap();
+        let (old, new) = edits[edits.len() - 1];
+        let kept = new.split_once('\n').map_or(String::new(), |(_, leader)| format!("\n{leader}"));
+        // Four digits may be rounded down.
+        let mended = format!("damping: {:.3}{kept}", 1.001 * advised.parse::<f64>().unwrap());
+        let mended = match old.starts_with("damping") {
+            true => of(name, &[(old, &mended)]),
+            false => of(name, &[(old, new), ("damping: 2.0", &mended)]),
+        };
+        assert!(mended.holds && !mended.finding.contains("make k"), "{advised}: {mended:?}");
+    }
+    // k = 3.5 whipped, 4 was torn, 4.47 was neither: nobody knows where between it ends.
+    let between = of("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 4.0")]);
+    assert!(between.holds && between.note && between.finding.contains("nothing is known"), "{between:?}");
+    // c is no substitute for k among obstacles: 0.38 widths, and 0.07 m from one another.
+    let led = of("7.10_obstacles.yaml", &[("damping: 5.0", "damping: 2.0\nleader_damping: 11.0")]);
+    assert!(led.note && led.finding.contains("or more c beside k"), "{led:?}");
+    // Weak zones are torn apart by strong obstacles, at whatever was enough for stronger ones.
+    let torn = of("7.10_obstacles.yaml", &[("\n  beta: 10.0", "\n  beta: 1.0")]);
+    assert!(torn.holds && torn.note && torn.finding.contains("nothing like it was measured"), "{torn:?}");
+    // Thirty robots whipped with k = 2, with which ten did not; among strong zones also with a way of half a width.
+    let robots: String = (0..20).map(|one| format!("- {{position: [{0}.0, {0}.0]}}\n", -6 * (one + 2))).collect();
+    let long = ("figures:\n", format!("{robots}figures:\n"));
+    let long = |edits: &[(&str, &str)]| of("7.10.yaml", &[edits, &[(long.0, &long.1)]].concat());
+    let whips = long(&[]);
+    assert!(whips.holds && whips.note && whips.finding.contains("nothing is known"), "{whips:?}");
+    let damped = long(&[("damping: 2.0", "damping: 2.6")]);
+    assert!(damped.holds && !damped.note && damped.finding.contains("up to 60 robots"), "{damped:?}");
+    let strong =
+        long(&[("damping: 2.0", "damping: 2.6"), ("alpha: 10.0\n  beta: 10.0", "alpha: 1000.0\n  beta: 1000.0")]);
+    assert!(strong.note && strong.finding.contains("nothing like it was measured"), "{strong:?}");
+    for name in
+        ["6.5.yaml", "6.5_k_5.yaml", "7.10.yaml", "7.10_obstacles.yaml", "7.10_fragments.yaml", "7.13_open.yaml"]
+    {
+        let shipped = of(name, &[]);
+        assert!(shipped.holds && !shipped.note && shipped.finding.contains("did not whip"), "{shipped:?}");
+    }
+    // One robot follows nobody.
+    assert!(of("7.11.yaml", &[("damping: 5.0", "damping: 1.0")]).finding.contains("one robot is no chain"));
+}
+
+/// A robot stood before this gap for good, and it was said that it passes.
+#[test]
+fn poles_close_gaps() {
+    let gap = |clearance: &str, pole: &str, body: &str| {
+        let text = file("7.10_obstacles.yaml");
+        let text =
+            text.replace("clearance: 2.0 ", &format!("{body}clearance: {clearance} ")).replace("pole: 1.0", pole);
+        one("gap", &text, "clearance")
+    };
+    let closed = gap("1.0", "pole: 1.0", "");
+    assert!(
+        !closed.holds && closed.finding.contains("poles 1 m from the outlines: gaps below 2 m are closed"),
+        "{closed:?}"
+    );
+    assert!(closed.finding.contains("make the clearance 2 m"), "{closed:?}");
+    let narrow = gap("2.0", "pole: 1.0", "");
+    assert!(narrow.holds && narrow.note && narrow.finding.contains("in gaps below 4 m, twice the cut"), "{narrow:?}");
+    assert!(gap("2.0", "pole: 0.9", "").note && !gap("1.7", "pole: 0.9", "").holds);
+    let wide = gap("4.0", "pole: 1.0", "");
+    assert!(wide.holds && !wide.note && wide.finding.contains("they pass what is left"), "{wide:?}");
+    // The larger of both is asked for.
+    let body = gap("0.5", "pole: 1.0", "limits: {speed: 1.2, acceleration: 500.0}\nsafety: {body_radius: 0.4}\n");
+    assert!(!body.holds && body.finding.contains("robots are 0.8 m wide: make the clearance 2 m"), "{body:?}");
+}
+
+/// Each of these ended 1e14 m away, or in a cycle of two steps, and every verdict held.
+#[test]
+fn steps_that_are_too_coarse() {
+    let step = |name: &str, edits: &[(&str, &str)]| {
+        // Figures and records are of whole steps.
+        let text = file(name);
+        let text = text[..text.find("\nfigures:").unwrap() + 1].to_owned();
+        let text: String =
+            text.lines().filter(|line| !line.starts_with("record_every")).map(|line| format!("{line}\n")).collect();
+        let text = edits.iter().fold(text, |text, (old, new)| {
+            assert!(text.contains(old), "{old}");
+            text.replacen(old, new, 1)
+        });
+        scenario(name, &trench_scenario::parse(name, &text).unwrap())
+            .into_iter()
+            .filter(|one| one.check == "step")
+            .collect::<Vec<_>>()
+    };
+    let poles = ("poles: [-1.0, -2.0]", "poles: [-8.0, -12.0]");
+    for (name, edits, most) in [
+        ("8.4_queue.yaml", &[("step: 0.01", "step: 1.0"), poles][..], "below 0.23"),
+        ("4.4.4.yaml", &[("step: 0.001", "step: 0.5")], "below 0.139"),
+        ("7.10.yaml", &[("step: 0.0005", "step: 0.5")], "below 0.4633"),
+        ("6.5.yaml", &[("step: 0.01", "step: 1.0")], "below 0.888"),
+        ("5.6.yaml", &[("step: 0.002", "step: 2.0")], "below 0.93"),
+    ] {
+        let verdicts = step(name, edits);
+        assert!(!verdicts.is_empty() && verdicts.iter().all(|verdict| !verdict.holds), "{verdicts:?}");
+        assert!(verdicts[0].finding.contains(most) && verdicts[0].finding.contains("make step "), "{verdicts:?}");
+        let advised =
+            verdicts.iter().map(|one| one.finding.split("make step ").nth(1).unwrap().split(' ').next().unwrap());
+        let advised = advised.map(|text| text.parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min);
+        let mended = format!("step: {advised:?}");
+        let mended: Vec<(&str, &str)> =
+            edits.iter().map(|(old, new)| (*old, if new.starts_with("step") { &*mended } else { *new })).collect();
+        assert!(step(name, &mended).iter().all(|verdict| verdict.holds), "{name} {advised}");
+    }
+    // 7.10 ends in its cycle a little beyond the limit alone.
+    assert!(step("7.10.yaml", &[("step: 0.0005", "step: 0.46")])[0].holds);
+    // Barriers are as steep as one comes near: told, not refused.
+    let near = step("6.5.yaml", &[]);
+    assert!(near[0].holds && near[0].note && near[0].finding.contains("before the poles of zones"), "{near:?}");
+}
+
+/// The sum over |[exp(W t)]_jk| |e_k(0)|, each rank with its own error; the largest of all was taken for each.
+#[test]
+fn errors_of_queues_are_by_rank() {
+    let chain = one("8.4_queue.yaml", &file("8.4_queue.yaml"), "chain");
+    let Some(Values::Chain { bounds, longest, .. }) = &chain.values else { panic!("{chain:?}") };
+    // By Runge-Kutta on the blocks, in the review of another.
+    for (bound, expected) in bounds.iter().zip([2.88, 7.45, 10.65, 11.06, 11.30, 12.15]) {
+        assert!((bound / expected - 1.0).abs() < 0.015, "{bounds:?}");
+    }
+    assert_eq!((bounds.len(), *longest), (6, 1));
+    assert!(chain.note && chain.finding.contains("errors of 2.85, 6.089, 7.046, 5.573, 4.891, 5.095"), "{chain:?}");
+    assert!(chain.finding.contains("rank 2 may leave 4 (") && chain.finding.contains("the first alone"), "{chain:?}");
+}
+
+/// 360 m beyond the segment, and nothing was said.
+#[test]
+fn targets_of_queues_are_within_reach() {
+    let of = |target: &str| {
+        let text = file("8.4_queue.yaml").replace("target: [40.0, 2.968]", target);
+        let parsed = trench_scenario::parse("8.4_queue.yaml", &text).unwrap();
+        let found = scenario("8.4_queue.yaml", &parsed).into_iter().find(|verdict| verdict.check == "goal");
+        let told = trench_check::infeasible("8.4_queue.yaml", &parsed);
+        assert_eq!(
+            told.iter().any(|verdict| verdict.check == "goal"),
+            found.as_ref().is_some_and(|found| !found.holds)
+        );
+        found
+    };
+    assert_eq!(of("target: [40.0, 2.968]"), None);
+    let near = of("target: [42.0, 2.968]").unwrap();
+    assert!(near.holds && near.note && near.finding.contains("the first place is [40."), "{near:?}");
+    let far = of("target: [400.0, 2.968]").unwrap();
+    assert!(!far.holds && far.finding.contains("target is 360 m away from the segment, and spacing is 4 m"), "{far:?}");
 }

@@ -307,3 +307,60 @@ fn kinds_are_asked_for() {
         "{told}"
     );
 }
+
+/// What would never happen is not accepted without a word.
+#[test]
+fn events_are_of_the_run() {
+    let r6 = "- {position: [19.0, -0.5]}";
+    let after = ["after the run", "up to its end, 80"];
+    check("A.22_quit_and_join.yaml", "joins: 30.0", "joins: 400.0", &["robots[6].joins = 400.0", after[0], after[1]]);
+    check("A.22_quit_and_join.yaml", "joins: 30.0", "joins: -1.0", &["robots[6].joins = -1.0", "above 0"]);
+    check("A.22_quit_and_join.yaml", "at: 45.0", "at: 999.0", &["quits.at = 999.0", after[0], after[1]]);
+    check("A.22_quit_and_join.yaml", "at: 45.0", "at: -45.0", &["quits.at = -45.0", "above 0"]);
+    check("A.22_quit_and_join.yaml", r6, "- {position: [19.0, -0.5], quits: {at: 80.1, to: [0, 0]}}", &[after[0]]);
+    let (name, link) = ("8.4.1_broken_links.yaml", "{robot: r4, from: 1.0, to: 4.0}");
+    check(name, link, "{robot: r4, from: 100.0, to: 200.0}", &["broken_links[0].from = 100.0", after[0]]);
+    check(
+        name,
+        link,
+        "{robot: r4, from: -1.0, to: 4.0}",
+        &["broken_links[0].from = -1.0", "before the run", "from 0 on"],
+    );
+    check(
+        name,
+        link,
+        "{robot: r1, from: 1.0, to: 4.0}",
+        &["broken_links[0].robot = r1", "leads", "name a robot behind it"],
+    );
+    // To the end of the run, whatever that is.
+    parse(name, &file(name).replace(link, "{robot: r4, from: 1.0, to: 4000.0}")).unwrap();
+    // Chains have links, too.
+    let (name, link) = ("6.2.1_lost_chain.yaml", "{robot: r4, from: 50.0, to: 60.0}");
+    check(name, link, "{robot: r1, from: 1.0, to: 4.0}", &["leads"]);
+    check(name, link, "{robot: r2, from: 900.0, to: 901.0}", &[after[0], "its end, 90"]);
+}
+
+/// In kinds without zones, and without bodies.
+#[test]
+fn robots_begin_in_places_of_their_own() {
+    let told = |name: &str, first: &str, second: &str| {
+        let text = file(name);
+        let robots = text.split("\nrobots:").nth(1).unwrap();
+        let lines: Vec<&str> = robots.lines().filter(|line| line.starts_with("- {")).collect();
+        let other = text.replacen(lines[0], first, 1).replacen(lines[1], second, 1);
+        parse(name, &other).map_err(|error| (error.origin.line, error.to_string(), other))
+    };
+    for (name, first, second, tolerance) in [
+        ("8.4_queue.yaml", "- {position: [35.0, 6.0]}", "- {position: [35.0, 6.04]}", "0.05"),
+        ("5.6.yaml", "- {position: [40.0, 6.0]}", "- {position: [40.0, 6.0], velocity: [1.0, 0.0]}", "0.1"),
+    ] {
+        let (line, text, file) = told(name, first, second).unwrap_err();
+        assert!(file.lines().nth(line - 1).unwrap() == second, "{text}");
+        assert!(
+            text.contains("r2 begin") && text.contains(&format!("nearer than `tolerance`, {tolerance} m")),
+            "{text}"
+        );
+        assert!(text.contains("move one of them"), "{text}");
+    }
+    assert!(told("8.4_queue.yaml", "- {position: [35.0, 6.0]}", "- {position: [35.0, 6.06]}").is_ok());
+}

@@ -5,7 +5,7 @@ use trench_config::{ConfigError, Origin};
 
 /// A kind of file that can be judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(in crate::command) enum Kind {
     /// `queues:`
     Formation,
     /// `launch:`
@@ -17,7 +17,7 @@ pub(super) enum Kind {
 }
 
 /// The kind of the file called `file`.
-pub(super) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
+pub(in crate::command) fn kind(file: &str, text: &str) -> Result<Kind, ConfigError> {
     let root = yaml::parse(file, text)?;
     let map = root.map()?;
     // Before launch files: a scenario may name one.

@@ -131,7 +131,7 @@ fn options(map: &Map<'_>, timing: &Timing, count: usize) -> Result<Options, Conf
         safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
         sidesteps: map.get_or("sidesteps", false)?,
         recovery: recovery.transpose()?,
-        broken: broken_links(map, count)?,
+        broken: broken_links(map, count, (timing, true))?,
         integration: timing.integration,
         ..Options::default()
     })

@@ -1,8 +1,10 @@
 //! What several kinds of scenarios have.
 
+use crate::scenario::Timing;
 use trench_config::ConfigError;
 use trench_config::yaml::{Map, Node};
 use trench_formation::Vector2;
+use trench_formation::kinematics::PointState;
 use trench_formation::laws::Capability;
 use trench_formation::trench::{
     AnyDamping, AnyTrench, Conic, ConstantDamping, CriticallyDamped, Hyperbolic, HyperbolicDamping, Meaning, Quadratic,
@@ -26,6 +28,47 @@ pub(super) fn positive(map: &Map<'_>, key: &str) -> Result<f64, ConfigError> {
 pub(super) fn not_negative(map: &Map<'_>, key: &str, default: f64) -> Result<f64, ConfigError> {
     let value = map.get_or(key, default)?;
     if value >= 0.0 { Ok(value) } else { Err(map.error(key, "is negative", "write 0 or more")) }
+}
+
+/// A time of a key (s), if it is one of the run: what is to happen at another time would never happen, and nothing would tell.
+pub(super) fn within_run(map: &Map<'_>, key: &str, time: f64, timing: &Timing) -> Result<f64, ConfigError> {
+    let Timing { duration, step, .. } = timing;
+    if time < 0.0 {
+        return Err(map.error(key, format!("{time} s is before the run"), "write seconds from 0 on"));
+    }
+    if time > duration + 0.5 * step {
+        let remedy = format!("write seconds up to its end, {duration}, or make the `duration` longer");
+        return Err(map.error(key, format!("{time} s is after the run"), remedy));
+    }
+    Ok(time)
+}
+
+/// Where robots conform where the file says nothing, m.
+pub(super) const TOLERANCE: f64 = 0.05;
+
+/// Distance within which a robot conforms, m.
+pub(super) fn tolerance(map: &Map<'_>) -> Result<f64, ConfigError> {
+    positive_or(map, "tolerance", TOLERANCE)
+}
+
+/// Whether robots without bodies begin in places of their own: two that are nearer to each other than `tolerance` are in one, as far as
+/// the file tells places apart.
+pub(super) fn apart(map: &Map<'_>, nodes: &[Node], robots: &[PointState]) -> Result<(), ConfigError> {
+    let tolerance = tolerance(map)?;
+    for (index, (robot, node)) in robots.iter().zip(nodes).enumerate() {
+        for (other, mate) in robots[..index].iter().enumerate() {
+            let distance = (mate.position - robot.position).norm();
+            if distance < tolerance {
+                let problem = format!(
+                    "has r{} begin {distance} m from r{}, nearer than `tolerance`, {tolerance} m: in the same place",
+                    index + 1,
+                    other + 1
+                );
+                return Err(node.error(problem, "move one of them, or make the tolerance smaller"));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// `[x, y]`.

@@ -1,6 +1,6 @@
 //! `kind: goal_tracking`: chapter 5.
 
-use super::common::{body, damping, limits, name, point, point_or_zero, positive, some, trench};
+use super::common::{apart, body, damping, limits, name, point, point_or_zero, positive, some, trench};
 use crate::law::GoalLaw;
 use crate::scenario::{Bounds, GoalCase, GoalTracking, Plant};
 use trench_config::ConfigError;
@@ -13,10 +13,11 @@ use trench_formation::trench::{AnyDamping, AnyTrench, ConstantDamping};
 
 pub(super) fn read(map: &Map<'_>, integration: Integration) -> Result<GoalTracking, ConfigError> {
     let goals = goals(&map.map("goals")?)?;
+    let nodes = some(map, "robots")?;
     let robot = |(index, node): (usize, &Node)| robot(node, &goals, index);
-    let robots: Vec<(PointState, f64)> =
-        some(map, "robots")?.iter().enumerate().map(robot).collect::<Result<_, _>>()?;
+    let robots: Vec<(PointState, f64)> = nodes.iter().enumerate().map(robot).collect::<Result<_, _>>()?;
     let (robots, headings): (Vec<_>, Vec<_>) = robots.into_iter().unzip();
+    apart(map, nodes, &robots)?;
     let cases: Vec<GoalCase> = some(map, "cases")?.iter().map(|node| case(node, &robots)).collect::<Result<_, _>>()?;
     for (index, case) in cases.iter().enumerate() {
         if cases[..index].iter().any(|other| other.name == case.name) {

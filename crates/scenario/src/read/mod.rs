@@ -38,9 +38,6 @@ const KINDS: [(&str, Kind); 6] = [
 /// Steps of one run at most: beyond, a step or duration is a slip.
 const MOST_STEPS: f64 = 1e8;
 
-/// Distance within which a robot conforms where the file says nothing, m.
-const TOLERANCE: f64 = 0.05;
-
 /// Keys of scenarios that other files do not have.
 const OF_SCENARIOS: [&str; 4] = ["duration", "step", "segment", "robots"];
 
@@ -91,9 +88,8 @@ pub fn parse(file: &str, text: &str) -> Result<Scenario, ConfigError> {
     };
     // Launch files bring their own, and only a robot among walls is compared: elsewhere these keys are unknown.
     let tolerance = match &task {
-        Task::Launch(_) => TOLERANCE,
-        _ if map.opt_node("tolerance").is_none() => TOLERANCE,
-        _ => common::positive(&map, "tolerance")?,
+        Task::Launch(_) => common::TOLERANCE,
+        _ => common::tolerance(&map)?,
     };
     let compared = match &task {
         Task::Nearest(chain, _) => {

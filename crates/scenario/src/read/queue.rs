@@ -1,6 +1,6 @@
 //! `kind: queue`: the linear laws of chapter 8, and what befalls a queue.
 
-use super::common::{body, limits, point, point_or_zero, positive, some};
+use super::common::{apart, body, limits, point, point_or_zero, positive, some, within_run};
 use crate::scenario::{Queue, Timing};
 use trench_config::yaml::{Map, Node};
 use trench_config::{ConfigError, did_you_mean};
@@ -11,16 +11,20 @@ use trench_formation::simulate::{BrokenLink, Integration, QueueRobotScenario, Qu
 
 pub(super) fn read(map: &Map<'_>, timing: &Timing) -> Result<Queue, ConfigError> {
     let (shape, segment) = trench_plan::segment(map.node("segment")?)?;
-    let robots: Vec<QueueRobotScenario> = some(map, "robots")?.iter().map(robot).collect::<Result<_, _>>()?;
+    let nodes = some(map, "robots")?;
+    let robots: Vec<QueueRobotScenario> = nodes.iter().map(|node| robot(node, timing)).collect::<Result<_, _>>()?;
     if robots.iter().all(|robot| robot.joins.is_some()) {
         return Err(map.error("robots", "all join later: there is no queue", "have one be there from the beginning"));
     }
+    apart(map, nodes, &robots.iter().map(|robot| robot.start).collect::<Vec<_>>())?;
     let limits = limits(map)?;
+    // Who comes later may come to be ahead of the first.
+    let leads = map.opt_node("recovery").is_none() && robots.iter().all(|robot| robot.joins.is_none());
     let queue = QueueScenario {
         target: point(map.node("target")?)?,
         spacing: positive(map, "spacing")?,
         law: law(&map.map("law")?)?,
-        broken: broken_links(map, robots.len())?,
+        broken: broken_links(map, robots.len(), (timing, leads))?,
         recovery: map.opt_map("recovery")?.map(|map| recovery(&map)).transpose()?,
         limits,
         safety: body(map, limits)?.map(|(radius, capability)| Stopping { radius, capability }),
@@ -62,11 +66,11 @@ fn law(map: &Map<'_>) -> Result<QueueFollowing, ConfigError> {
     Ok(law)
 }
 
-fn robot(node: &Node) -> Result<QueueRobotScenario, ConfigError> {
+fn robot(node: &Node, timing: &Timing) -> Result<QueueRobotScenario, ConfigError> {
     let map = node.map()?;
     let start = PointState { position: point(map.node("position")?)?, velocity: point_or_zero(&map, "velocity")? };
-    let joins = time(&map, "joins")?;
-    let quits = map.opt_map("quits")?.map(|map| quitting(&map)).transpose()?;
+    let joins = map.opt_node("joins").map(|_| time(&map, "joins", timing)).transpose()?;
+    let quits = map.opt_map("quits")?.map(|map| quitting(&map, timing)).transpose()?;
     if quits.is_some_and(|quits| joins.is_some_and(|joins| quits.at <= joins)) {
         return Err(map.error("quits", "is before the robot joins", "have it quit later"));
     }
@@ -74,15 +78,16 @@ fn robot(node: &Node) -> Result<QueueRobotScenario, ConfigError> {
     Ok(QueueRobotScenario { start, joins, quits })
 }
 
-fn quitting(map: &Map<'_>) -> Result<Quitting, ConfigError> {
-    let quitting =
-        Quitting { at: positive(map, "at")?, to: point(map.node("to")?)?, closes_up: map.get_or("closes_up", true)? };
+fn quitting(map: &Map<'_>, timing: &Timing) -> Result<Quitting, ConfigError> {
+    let (at, to) = (time(map, "at", timing)?, point(map.node("to")?)?);
+    let quitting = Quitting { at, to, closes_up: map.get_or("closes_up", true)? };
     map.finish()?;
     Ok(quitting)
 }
 
-fn time(map: &Map<'_>, key: &str) -> Result<Option<f64>, ConfigError> {
-    map.opt_node(key).map(|_| positive(map, key)).transpose()
+/// When something happens after the beginning, s.
+fn time(map: &Map<'_>, key: &str, timing: &Timing) -> Result<f64, ConfigError> {
+    within_run(map, key, positive(map, key)?, timing)
 }
 
 /// Whether links can hold the queue together, and limits and bodies can be.
@@ -116,12 +121,12 @@ fn checked(map: &Map<'_>, timing: &Timing, queue: &QueueScenario) -> Result<(), 
     Ok(())
 }
 
-/// Links that break for a time, of `count` robots.
-pub(super) fn broken_links(map: &Map<'_>, count: usize) -> Result<Vec<BrokenLink>, ConfigError> {
-    map.opt_list("broken_links")?.iter().map(|node| broken(node, count)).collect()
+/// Links that break for a time of the run, of `count` robots, of which r1 may be one that always leads.
+pub(super) fn broken_links(map: &Map<'_>, count: usize, run: (&Timing, bool)) -> Result<Vec<BrokenLink>, ConfigError> {
+    map.opt_list("broken_links")?.iter().map(|node| broken(node, count, run)).collect()
 }
 
-fn broken(node: &Node, count: usize) -> Result<BrokenLink, ConfigError> {
+fn broken(node: &Node, count: usize, (timing, leads): (&Timing, bool)) -> Result<BrokenLink, ConfigError> {
     let map = node.map()?;
     let names: Vec<String> = (1..=count).map(|rank| format!("r{rank}")).collect();
     let name = map.str("robot")?;
@@ -129,7 +134,12 @@ fn broken(node: &Node, count: usize) -> Result<BrokenLink, ConfigError> {
         let remedy = did_you_mean(name, names.iter().map(String::as_str));
         return Err(map.error("robot", "is not in this scenario", remedy));
     };
-    let (from, to) = (map.f64("from")?, map.f64("to")?);
+    if leads && robot == 0 {
+        let remedy = "name a robot behind it: a link is the one to the robot ahead";
+        return Err(map.error("robot", "leads, and has no link that could break", remedy));
+    }
+    // One that is whole again after the run is broken to its end.
+    let (from, to) = (within_run(&map, "from", map.f64("from")?, timing)?, map.f64("to")?);
     if from >= to {
         return Err(map.error("to", "is not after `from`", "write when the link is whole again, s"));
     }
