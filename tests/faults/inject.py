@@ -103,7 +103,7 @@ def _quality(topic: str):
     """As readers of the topic ask for it: of latched ones nobody hears a publisher who does not keep its word."""
     from rclpy.qos import DurabilityPolicy, QoSProfile
 
-    latched = topic in ("/run_state", "/assignment", "/formation")
+    latched = topic in ("/run_state", "/assignment", "/formation", "/loop_delay")
     return QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL) if latched else QoSProfile(depth=10)
 
 
@@ -223,13 +223,6 @@ def _identify(stamp, place: float):
     return identify
 
 
-def _all_is_well(stamp, place: float):
-    """Nobody needs to stop."""
-    from std_msgs.msg import Bool
-
-    return Bool(data=False)
-
-
 def _delay(stamp, place: float):
     from std_msgs.msg import Float64
 
@@ -267,11 +260,14 @@ def _scan(stamp, place: float):
 
 
 def _voices() -> list:
-    """What robots are moved by: kind, topic, message from a stamp and a number."""
+    """What robots are moved by: kind, topic, message from a stamp and a number.
+
+    Who only comes on /emergency_stop has his hand on the button: robots rest until he speaks (docs/timeouts.md), so nobody does here.
+    """
     from geometry_msgs.msg import TwistStamped
     from nav_msgs.msg import Odometry
     from sensor_msgs.msg import CameraInfo, Image, LaserScan
-    from std_msgs.msg import Bool, Float64
+    from std_msgs.msg import Float64
     from trench_msgs.msg import (
         ApparentObstacleArray,
         Assignment,
@@ -302,7 +298,6 @@ def _voices() -> list:
         (CameraInfo, "/overhead/camera_info", _lens),
         (LaserScan, "/robot1/scan", _scan),
         (Formation, "/set_formation", _formation),
-        (Bool, "/emergency_stop", _all_is_well),
         (Float64, "/loop_delay", _delay),
     ]
 
@@ -350,8 +345,8 @@ def wrong_sizes(ears: Ears, seconds: float) -> float:
     def noise(_):
         return b"\x00\x01\x00\x00" + chance.randbytes(chance.choice([0, 1, 3, 17, 64, 900]))
 
-    # A byte that is not zero says stop, and is obeyed.
-    return _speak(ears, [(kind, topic, noise) for kind, topic, _ in _voices() if topic != "/emergency_stop"], seconds)
+    # Of a type of one size Fast DDS sends no other.
+    return _speak(ears, [(kind, topic, noise) for kind, topic, _ in _voices() if topic != "/loop_delay"], seconds)
 
 
 def wrong_types(ears: Ears, seconds: float) -> float:
