@@ -11,7 +11,8 @@ use std::time::Instant;
 use trench_bag::run::Run;
 use trench_check::Verdict;
 use trench_scenario::{
-    CaseSummary, ChangeSummary, DivergedSummary, LyapunovSummary, Measures, OutsideSummary, Scenario, Simulation, Summary, Transits, WheelSummary,
+    CaseSummary, ChangeSummary, DivergedSummary, LyapunovSummary, Measures, OutsideSummary, Scenario, Simulation,
+    Summary, Transits, WheelSummary,
 };
 
 mod messages;
@@ -132,7 +133,8 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
     }
     let laws = || case.robots.iter().filter_map(|robot| Some((robot, robot.lyapunov?)));
     if let Some((robot, most)) = laws().max_by(|(_, a), (_, b)| a.greatest_rise.total_cmp(&b.greatest_rise)) {
-        let of = |value: fn(&LyapunovSummary) -> f64| laws().map(|(_, law)| value(&law)).fold(f64::NEG_INFINITY, f64::max);
+        let of =
+            |value: fn(&LyapunovSummary) -> f64| laws().map(|(_, law)| value(&law)).fold(f64::NEG_INFINITY, f64::max);
         let (greatest, last) = (of(|law| law.greatest), of(|law| law.last));
         let (rate, by_law) = (of(|law| law.greatest_rate), of(|law| law.greatest_rate_of_law));
         let (rise, name) = (most.greatest_rise, &robot.name);
