@@ -45,7 +45,8 @@ impl Course {
 
     pub(crate) fn summary(&self, last: f64) -> LyapunovSummary {
         let [greatest, greatest_rate_of_law] = self.greatest;
-        let [greatest_rate, greatest_rise] = self.risen;
+        let [rate, greatest_rise] = self.risen;
+        let greatest_rate = (rate > f64::NEG_INFINITY).then_some(rate);
         LyapunovSummary { greatest, last, greatest_rate, greatest_rise, greatest_rate_of_law }
     }
 }
@@ -65,13 +66,13 @@ mod tests {
     #[test]
     fn what_rises_is_told_whatever_the_formula_says() {
         let told = along([[3.0, 0.0], [1.0, 0.0], [1.5, 0.0], [1.25, 0.0], [2.0, 0.0]]);
-        assert_eq!((told.greatest_rate, told.greatest_rise, told.greatest_rate_of_law), (1.5, 1.0, -1.0));
+        assert_eq!((told.greatest_rate, told.greatest_rise, told.greatest_rate_of_law), (Some(1.5), 1.0, -1.0));
     }
 
     #[test]
     fn what_is_brought_in_does_not_count() {
         let told = along([[1.0, 2.0], [2.0, 2.0], [3.5, 2.0]]);
-        assert_eq!((told.greatest_rate, told.greatest_rise), (1.0, 0.5));
+        assert_eq!((told.greatest_rate, told.greatest_rise), (Some(1.0), 0.5));
     }
 
     #[test]
@@ -81,6 +82,7 @@ mod tests {
         course.take([9.0, 0.0, 0.0], 0.5, false);
         course.begin_anew();
         course.take([20.0, 0.0, 0.0], 0.5, false);
-        assert_eq!((course.summary(0.0).greatest_rise, course.summary(0.0).greatest), (0.0, 20.0));
+        let told = course.summary(0.0);
+        assert_eq!((told.greatest_rate, told.greatest_rise, told.greatest), (None, 0.0, 20.0));
     }
 }

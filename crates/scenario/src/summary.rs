@@ -164,8 +164,9 @@ pub struct LyapunovSummary {
     /// Its value at the end.
     pub last: f64,
     /// The greatest rate at which it changed from one step to the next, in units of V a second, less the power that leader, robots ahead
-    /// and obstacles brought in: V' of the argument, measured.
-    pub greatest_rate: f64,
+    /// and obstacles brought in: V' of the argument, measured. None where no two steps had the
+    /// same V.
+    pub greatest_rate: Option<f64>,
     /// By how much it rose at most over any stretch of time, less what they brought in: nothing but for errors of the integration where the
     /// argument holds.
     pub greatest_rise: f64,

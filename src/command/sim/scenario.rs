@@ -136,12 +136,14 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
         let of =
             |value: fn(&LyapunovSummary) -> f64| laws().map(|(_, law)| value(&law)).fold(f64::NEG_INFINITY, f64::max);
         let (greatest, last) = (of(|law| law.greatest), of(|law| law.last));
-        let (rate, by_law) = (of(|law| law.greatest_rate), of(|law| law.greatest_rate_of_law));
+        let (rate, by_law) =
+            (of(|law| law.greatest_rate.unwrap_or(f64::NEG_INFINITY)), of(|law| law.greatest_rate_of_law));
+        let rate = if rate.is_finite() { format!("{rate:.4}") } else { "-".to_owned() };
         let (rise, name) = (most.greatest_rise, &robot.name);
         writeln!(formatter, "  V of the laws: {greatest:.4} at most, {last:.4} at the end")?;
         writeln!(
             formatter,
-            "  V measured, less what others bring in: rises by {rise:.4} at most ({name}), by {rate:.4} a second at most; by the laws' formula {by_law:.4}"
+            "  V measured, less what others bring in: rises by {rise:.4} at most ({name}), by {rate} a second at most; by the laws' formula {by_law:.4}"
         )?;
     }
     for ChangeSummary { time, robot, change, rank } in &case.changes {
