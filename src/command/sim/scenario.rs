@@ -103,7 +103,7 @@ impl Display for Told<'_> {
         if let Some(DivergedSummary { time, robot, distance, limit, remedy }) = diverged {
             writeln!(
                 formatter,
-                "diverged after {time:.2} s: {robot} was {distance:.4e} m out, beyond {limit} m, a thousand times all that the file speaks of; {remedy}"
+                "diverged after {time:.2} s: {robot} was {distance:.4e} m out, beyond {limit:.0} m, a thousand times all that the file speaks of; {remedy}"
             )?;
         }
         cases.iter().try_for_each(|case| tell_case(formatter, case))
