@@ -35,7 +35,11 @@ Exit codes:
   n   the exit code of the node that ended the run
   1   the run did not end within --seconds
   2   the scenario, the launch file, the arguments or a node's configuration is wrong
-Scenarios end with 0 or 2.";
+  10  the formation does not stand; of a scenario: the run diverged
+Scenarios end with 0, 2 or 10.";
+
+/// Of a scenario whose run diverged; the operator's, if the formation does not stand.
+const DIVERGED: u8 = 10;
 
 /// Runs a scenario file headless, or drives the node cores of a launch file in lock-step, faster than real time.
 ///
@@ -112,6 +116,13 @@ impl SimError {
         }
     }
 
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Run(RunError::Diverged { .. }) | Self::RunOf { error: RunError::Diverged { .. }, .. } => DIVERGED,
+            _ => 2,
+        }
+    }
+
     /// The error about a launch file, told where the scenario names it.
     fn of_scenario(self, launch: &trench_scenario::Launch) -> Self {
         match self {
@@ -128,7 +139,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
         Ok(code) => ExitCode::from(code),
         Err(error) => {
             eprintln!("trench sim: {error}");
-            ExitCode::from(2)
+            ExitCode::from(error.exit_code())
         }
     }
 }
@@ -152,7 +163,7 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     let done = scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(&arguments.file))?;
     write_csv(arguments, &done.run)?;
     scenario::tell(&done.summary, &infeasible, arguments.json);
-    Ok(0)
+    Ok(if done.summary.diverged.is_some() { DIVERGED } else { 0 })
 }
 
 /// What is said on the command line is done, or refused: a scenario has neither nodes, nor arguments, and says itself how long it takes.

@@ -4,6 +4,8 @@
 //! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
 
 mod closest;
+mod course;
+mod divergence;
 mod gaps;
 mod launch;
 mod law;
@@ -26,6 +28,6 @@ pub use scenario::{
 };
 pub use simulation::{RunError, Sample, Simulation};
 pub use summary::{
-    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary,
-    TransitSummary, Transits, WheelSummary,
+    CaseSummary, ChangeSummary, DivergedSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary,
+    Summary, TransitSummary, Transits, WheelSummary,
 };

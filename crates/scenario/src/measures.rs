@@ -1,11 +1,13 @@
 //! How a run went, looked at after every step.
 
 use crate::closest::Closest;
+use crate::course::Course;
+use crate::divergence::Divergence;
 use crate::gaps::Gaps;
 use crate::neutral::outside;
 use crate::robots::Robots;
 use crate::summary::{
-    CaseSummary, ChangeSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary, WheelSummary,
+    CaseSummary, ChangeSummary, DivergedSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary, WheelSummary,
 };
 use crate::transits::Watch;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
@@ -32,6 +34,7 @@ pub struct Measures {
     copies: Vec<PointState>,
     changes: Vec<ChangeSummary>,
     transits: Option<Watch>,
+    divergence: Divergence,
     /// By seat, where robots have motors.
     wheels: Vec<Option<WheelSummary>>,
 }
@@ -47,8 +50,7 @@ struct Kept {
     last_drawn: f64,
     /// Least and greatest, m.
     leader_range: [f64; 2],
-    /// Greatest Lyapunov function and greatest rate of it.
-    lyapunov: [f64; 2],
+    lyapunov: Course,
 }
 
 /// Of the robots of a case, which stand together.
@@ -73,7 +75,7 @@ impl Measures {
             last_away: -1.0,
             last_drawn: -1.0,
             leader_range: [f64::INFINITY, 0.0],
-            lyapunov: [f64::NEG_INFINITY; 2],
+            lyapunov: Course::new(),
         };
         let mut teams: Vec<Team> = scenario.cases().iter().map(|_| Team::new()).collect();
         for (index, seat) in seats.iter().enumerate() {
@@ -87,6 +89,7 @@ impl Measures {
             copies: Vec::new(),
             changes: Vec::new(),
             transits: Watch::new(scenario),
+            divergence: Divergence::new(scenario),
             wheels: vec![None; seats.len()],
             seats,
         }
@@ -109,6 +112,13 @@ impl Measures {
     fn look(&mut self, scenario: &Scenario, simulation: &Simulation, robots: &(impl Robots + ?Sized)) {
         let (time, zoning, obstacles) = (simulation.time(), scenario.zoning(), simulation.obstacles());
         self.time = time;
+        for change in simulation.changes().iter().skip(self.changes.len()) {
+            self.changes.push(told(change, &self.seats));
+            // Another leader, or none, is another V.
+            if let Some(kept) = self.kept.get_mut(change.robot) {
+                kept.lyapunov.begin_anew();
+            }
+        }
         for Team { seats, closest, gaps, last_outside, in_zone_1 } in &mut self.teams {
             let points = robots.points(seats.start, seats.end, &mut self.copies);
             let has_pairs = closest.prepare(points, zoning);
@@ -116,7 +126,8 @@ impl Measures {
             for first in seats.clone().step_by(BLOCK) {
                 let block = first..seats.end.min(first + BLOCK);
                 for (index, kept) in block.clone().zip(&mut self.kept[block.clone()]) {
-                    let outside = kept.look(robots, index, (time, scenario.tolerance), zoning);
+                    self.divergence.look(&self.seats[index], robots.position(index), time);
+                    let outside = kept.look(robots, index, (time, scenario.timing.step, scenario.tolerance), zoning);
                     *last_outside = if outside { time } else { *last_outside };
                 }
                 let block = block.start - seats.start..block.end - seats.start;
@@ -129,15 +140,18 @@ impl Measures {
         if let Some(watch) = &mut self.transits {
             watch.look(robots, time);
         }
-        for change in simulation.changes().iter().skip(self.changes.len()) {
-            self.changes.push(told(change, &self.seats));
-        }
         for (case, team) in self.teams.iter().enumerate() {
             for (index, effort) in simulation.wheel_efforts(case).iter().enumerate() {
                 let WheelEffort { greatest, saturated } = *effort;
                 self.wheels[team.seats.start + index] = Some(WheelSummary { greatest_torque: greatest, saturated });
             }
         }
+    }
+
+    /// The first robot that was out of all bounds: to go on says no more.
+    #[must_use]
+    pub fn diverged(&self) -> Option<&DivergedSummary> {
+        self.divergence.first()
     }
 
     /// The verdict; `samples` are of the end.
@@ -149,6 +163,7 @@ impl Measures {
             section: scenario.section.clone(),
             duration: self.time,
             step: scenario.timing.step,
+            diverged: self.diverged().cloned(),
             cases: cases
                 .iter()
                 .enumerate()
@@ -179,10 +194,7 @@ impl Measures {
                     effort: is_unicycle.then_some(sample.effort),
                     transits: self.transits.as_ref().and_then(|watch| watch.of(index, sample.position, self.time)),
                     wheels: self.wheels[index],
-                    lyapunov: sample.lyapunov.map(|[last, _]| {
-                        let [greatest, greatest_rate] = self.kept[index].lyapunov;
-                        LyapunovSummary { greatest, last, greatest_rate }
-                    }),
+                    lyapunov: sample.lyapunov.map(|[last, _]| self.kept[index].lyapunov.summary(last)),
                 }
             })
             .collect();
@@ -221,13 +233,13 @@ impl Measures {
 }
 
 impl Kept {
-    /// Looks at the robot at `time` (s), which conforms within `tolerance` (m); whether it is outside its leader's neutral zone.
+    /// Looks at the robot at `time` (s), a `step` (s) after the last time, which conforms within `tolerance` (m); whether it is outside its leader's neutral zone.
     #[inline]
     fn look(
         &mut self,
         robots: &(impl Robots + ?Sized),
         index: usize,
-        (time, tolerance): (f64, f64),
+        (time, step, tolerance): (f64, f64, f64),
         zoning: Option<&Zoning>,
     ) -> bool {
         let deviation = robots.deviation(index);
@@ -237,8 +249,10 @@ impl Kept {
         if deviation.is_finite() {
             self.last_drawn = time;
         }
-        if let Some([value, rate]) = robots.lyapunov(index) {
-            self.lyapunov = [self.lyapunov[0].max(value), self.lyapunov[1].max(rate)];
+        if let Some(moment) = robots.lyapunov(index) {
+            self.lyapunov.take(moment, step, robots.is_drawn(index));
+        } else {
+            self.lyapunov.begin_anew();
         }
         let Some(leader) = self.leader else { return false };
         let distance = (robots.position(leader as usize) - robots.position(index)).norm();

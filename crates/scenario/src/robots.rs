@@ -14,8 +14,11 @@ pub(crate) trait Robots {
     /// See [`Sample::deviation`], m.
     fn deviation(&self, index: usize) -> f64;
 
-    /// See [`Sample::lyapunov`].
-    fn lyapunov(&self, index: usize) -> Option<[f64; 2]>;
+    /// V, its rate by the law and the power that is brought in, see [`Sample::lyapunov`] and [`Sample::power`].
+    fn lyapunov(&self, index: usize) -> Option<[f64; 3]>;
+
+    /// Whether something draws it.
+    fn is_drawn(&self, index: usize) -> bool;
 
     /// Those of a team, which stand together from `first` to before `end`. What is not kept as points is copied into `copies`.
     fn points<'a>(&'a self, first: usize, end: usize, copies: &'a mut Vec<PointState>) -> &'a [PointState];
@@ -30,8 +33,13 @@ impl Robots for [Sample] {
         self[index].deviation
     }
 
-    fn lyapunov(&self, index: usize) -> Option<[f64; 2]> {
-        self[index].lyapunov
+    fn lyapunov(&self, index: usize) -> Option<[f64; 3]> {
+        let Sample { lyapunov, power, .. } = self[index];
+        lyapunov.map(|[value, rate]| [value, rate, power])
+    }
+
+    fn is_drawn(&self, index: usize) -> bool {
+        self[index].goal.is_some()
     }
 
     fn points<'a>(&'a self, first: usize, end: usize, copies: &'a mut Vec<PointState>) -> &'a [PointState] {
@@ -54,9 +62,14 @@ impl Robots for ChainSimulation<AnyTrench> {
     }
 
     #[inline]
-    fn lyapunov(&self, index: usize) -> Option<[f64; 2]> {
-        let steered = self.outcomes().get(index)?.steered;
-        Some([steered.lyapunov, steered.lyapunov_rate])
+    fn lyapunov(&self, index: usize) -> Option<[f64; 3]> {
+        let outcome = self.outcomes().get(index)?;
+        Some([outcome.steered.lyapunov, outcome.steered.lyapunov_rate, outcome.power])
+    }
+
+    #[inline]
+    fn is_drawn(&self, index: usize) -> bool {
+        self.outcomes().get(index).is_some_and(|outcome| outcome.attraction.is_some())
     }
 
     #[inline]

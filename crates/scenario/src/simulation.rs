@@ -57,6 +57,8 @@ pub struct Sample {
     pub effort: f64,
     /// V of the law and its rate; none where no law was asked.
     pub lyapunov: Option<[f64; 2]>,
+    /// Power that what moves around the robot brings into V besides that rate, m^2/s^3.
+    pub power: f64,
 }
 
 enum Running {
@@ -261,7 +263,8 @@ impl Simulation {
                 for (index, robot) in chain.robots().iter().enumerate() {
                     let point = chain.point_of_attraction(index);
                     let steered = wholly.then(|| chain.steered(index));
-                    samples.push(of_point(*robot, steered, Some(point), (point - robot.position).norm()));
+                    let sample = of_point(*robot, steered, Some(point), (point - robot.position).norm());
+                    samples.push(Sample { power: if wholly { chain.power(index) } else { 0.0 }, ..sample });
                 }
             }
             Running::Queue(team) => {
@@ -276,7 +279,8 @@ impl Simulation {
                     let action = chain.outcomes().get(index);
                     let goal = action.and_then(|action| action.attraction);
                     let deviation = chain.deviations().get(index).copied().unwrap_or(f64::INFINITY);
-                    samples.push(of_point(*robot, action.map(|action| action.steered), goal, deviation));
+                    let sample = of_point(*robot, action.map(|action| action.steered), goal, deviation);
+                    samples.push(Sample { power: action.map_or(0.0, |action| action.power), ..sample });
                 }
                 samples.extend(trips.iter().map(|trip| {
                     let (robot, goal) = (trip.robot(), trip.goal());
@@ -357,6 +361,7 @@ fn of_regulation(robot: &Regulation<ChosenLaw>) -> Sample {
         misalignment: polar.misalignment,
         effort: robot.effort(),
         lyapunov: Some([lyapunov.value, lyapunov.rate]),
+        power: 0.0,
     }
 }
 
@@ -385,5 +390,6 @@ fn of_point(robot: PointState, steered: Option<Steered>, goal: Option<Vector2<f6
         misalignment: 0.0,
         effort: 0.0,
         lyapunov: steered.map(|steered| [steered.lyapunov, steered.lyapunov_rate]),
+        power: 0.0,
     }
 }

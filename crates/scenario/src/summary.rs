@@ -13,8 +13,25 @@ pub struct Summary {
     pub duration: f64,
     /// s.
     pub step: f64,
+    /// Where it ended, because a robot was out of all bounds; none where it did not.
+    pub diverged: Option<DivergedSummary>,
     /// One a case.
     pub cases: Vec<CaseSummary>,
+}
+
+/// A run that diverged: what is told besides is of this moment, and says nothing about the laws.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DivergedSummary {
+    /// s.
+    pub time: f64,
+    /// The first robot that was out of bounds, by its name.
+    pub robot: String,
+    /// How far from the origin it was, m.
+    pub distance: f64,
+    /// A thousand times as far out as anything that the file speaks of, m.
+    pub limit: f64,
+    /// For people.
+    pub remedy: &'static str,
 }
 
 /// A team.
@@ -146,6 +163,13 @@ pub struct LyapunovSummary {
     pub greatest: f64,
     /// Its value at the end.
     pub last: f64,
-    /// The greatest rate that the law gave it, 1/s: not above 0 where the stability argument holds.
-    pub greatest_rate: f64,
+    /// The greatest rate at which it changed from one step to the next, in units of V a second, less the power that leader, robots ahead
+    /// and obstacles brought in: V' of the argument, measured. None where no two steps had the
+    /// same V.
+    pub greatest_rate: Option<f64>,
+    /// By how much it rose at most over any stretch of time, less what they brought in: nothing but for errors of the integration where the
+    /// argument holds.
+    pub greatest_rise: f64,
+    /// The greatest rate that the law's own formula gave it, such as -k |r'|^2, whatever the robot did then.
+    pub greatest_rate_of_law: f64,
 }

@@ -11,7 +11,8 @@ use std::time::Instant;
 use trench_bag::run::Run;
 use trench_check::Verdict;
 use trench_scenario::{
-    CaseSummary, ChangeSummary, Measures, OutsideSummary, Scenario, Simulation, Summary, Transits, WheelSummary,
+    CaseSummary, ChangeSummary, DivergedSummary, LyapunovSummary, Measures, OutsideSummary, Scenario, Simulation,
+    Summary, Transits, WheelSummary,
 };
 
 mod messages;
@@ -53,11 +54,19 @@ pub(crate) fn run(scenario: &Scenario, text: &str, manner: Manner<'_>) -> Result
         }
         let is_recorded = step % timing.record_every == 0 || step == steps;
         if is_recorded || !simulation.tells_itself() {
-            simulation.sample(is_recorded, &mut samples)?;
+            // V is measured at every step.
+            simulation.sample(true, &mut samples)?;
         }
         measures.take(scenario, &simulation, &samples);
-        if is_recorded {
+        let ends = measures.diverged().is_some();
+        if ends && !is_recorded {
+            simulation.sample(true, &mut samples)?;
+        }
+        if is_recorded || ends {
             publisher.publish(&simulation, &samples, &mut sink);
+        }
+        if ends {
+            break;
         }
         line.at(|| format!("{:.0} of {:.0} s simulated", simulation.time(), timing.duration));
     }
@@ -89,8 +98,14 @@ fn metres(value: f64) -> String {
 
 impl Display for Told<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Summary { name, section, duration, step, cases } = self.0;
+        let Summary { name, section, duration, step, diverged, cases } = self.0;
         writeln!(formatter, "{name} (section {section}): {duration} s in steps of {step} s")?;
+        if let Some(DivergedSummary { time, robot, distance, limit, remedy }) = diverged {
+            writeln!(
+                formatter,
+                "diverged after {time:.2} s: {robot} was {distance:.4e} m out, beyond {limit:.0} m, a thousand times all that the file speaks of; {remedy}"
+            )?;
+        }
         cases.iter().try_for_each(|case| tell_case(formatter, case))
     }
 }
@@ -117,13 +132,18 @@ fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Res
         writeln!(formatter, "  {leader} is {zone} of {robot}, {distance:.4} m away: {why}")?;
     }
     let laws = || case.robots.iter().filter_map(|robot| Some((robot, robot.lyapunov?)));
-    if let Some((robot, steepest)) = laws().max_by(|(_, a), (_, b)| a.greatest_rate.total_cmp(&b.greatest_rate)) {
-        let [greatest, last] =
-            laws().fold([0.0_f64; 2], |[greatest, last], (_, law)| [greatest.max(law.greatest), last.max(law.last)]);
-        let (rate, name) = (steepest.greatest_rate, &robot.name);
+    if let Some((robot, most)) = laws().max_by(|(_, a), (_, b)| a.greatest_rise.total_cmp(&b.greatest_rise)) {
+        let of =
+            |value: fn(&LyapunovSummary) -> f64| laws().map(|(_, law)| value(&law)).fold(f64::NEG_INFINITY, f64::max);
+        let (greatest, last) = (of(|law| law.greatest), of(|law| law.last));
+        let (rate, by_law) =
+            (of(|law| law.greatest_rate.unwrap_or(f64::NEG_INFINITY)), of(|law| law.greatest_rate_of_law));
+        let rate = if rate.is_finite() { format!("{rate:.4}") } else { "-".to_owned() };
+        let (rise, name) = (most.greatest_rise, &robot.name);
+        writeln!(formatter, "  V of the laws: {greatest:.4} at most, {last:.4} at the end")?;
         writeln!(
             formatter,
-            "  V of the laws: {greatest:.4} at most, {last:.4} at the end; greatest rate {rate:.4} 1/s ({name})"
+            "  V measured, less what others bring in: rises by {rise:.4} at most ({name}), by {rate} a second at most; by the laws' formula {by_law:.4}"
         )?;
     }
     for ChangeSummary { time, robot, change, rank } in &case.changes {

@@ -28,6 +28,7 @@ pub(crate) struct Abreast {
     steered: Vectors,
     lyapunov: f64x4,
     lyapunov_rate: f64x4,
+    power: f64x4,
     applied: Vectors,
     cut: u32,
     foot: Vectors,
@@ -39,6 +40,12 @@ impl Abreast {
     #[inline]
     pub(crate) fn tells(&self, lane: usize) -> bool {
         self.told & (1 << lane) != 0
+    }
+
+    /// What the leader brings into the Lyapunov function, m^2/s^3.
+    #[inline]
+    pub(crate) fn power(&self, lane: usize) -> f64 {
+        self.power.as_array()[lane]
     }
 
     /// What the law says.
@@ -124,7 +131,7 @@ impl<T: Trench> Agent<T> {
             walls = Vectors::of(pushes.map(|push| push.force));
             lyapunov += f64x4::new(pushes.map(|push| push.value));
         }
-        let steered = acceleration + walls;
+        let (steered, power) = (acceleration + walls, walls.dot(&(leader_velocity - still)));
         // Limits, where they cut nothing.
         let wanted = steered - frame;
         let (mut applied, mut differs) = (steered, 0);
@@ -144,6 +151,16 @@ impl<T: Trench> Agent<T> {
                 agent.last = Some(now);
             }
         }
-        Some(Abreast { told, steered, lyapunov, lyapunov_rate, applied, cut: differs, foot: feet.point, deviation })
+        Some(Abreast {
+            told,
+            steered,
+            lyapunov,
+            lyapunov_rate,
+            power,
+            applied,
+            cut: differs,
+            foot: feet.point,
+            deviation,
+        })
     }
 }

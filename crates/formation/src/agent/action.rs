@@ -79,6 +79,14 @@ pub struct Powers {
     pub obstacles: f64,
 }
 
+impl Powers {
+    /// Of all of them.
+    #[inline]
+    pub fn sum(&self) -> f64 {
+        self.leader + self.robots + self.obstacles
+    }
+}
+
 /// What the potentials of other things hold of the Lyapunov function, m^2/s^2: Psi of each.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Values {

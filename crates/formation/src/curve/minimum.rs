@@ -12,6 +12,13 @@ use nalgebra::Vector2;
 /// An interval halved this often is called a (degenerate) minimum itself: only a centre of curvature comes this far.
 const MOST_SPLITS: u32 = 20;
 
+/// After so many intervals of a piece, those over which the squared distance hardly changes are not halved any more: where a curve runs about
+/// the point as a circle does, none decides by halving. A minimum that is one is found long before.
+const MANY: u32 = 512;
+
+/// What the squared distance hardly changes by, as a part of it: distances are the same, then, for those who compare them.
+const FLAT: f64 = 1e-9;
+
 /// A Newton step shorter than this part of an interval on which g' has a sign is the last: what is left then is below its square.
 const LAST_STEP: f64 = 1e-8;
 
@@ -121,9 +128,10 @@ fn by_halves(
 ) {
     let mut stack = [(0.0, 0.0, 0); MOST_SPLITS as usize + 2];
     stack[0] = (from, to, 0);
-    let mut used = 1;
+    let (mut used, mut looked) = (1, 0);
     while used > 0 {
         used -= 1;
+        looked += 1;
         let (from, to, depth) = stack[used];
         let (low, high) = (primitive.evaluate(from), primitive.evaluate(to));
         let (to_chord, fraction) = distance_to_chord(point, low.point, high.point);
@@ -139,7 +147,7 @@ fn by_halves(
                 }
             }
             Some(false) => {}
-            None if depth == MOST_SPLITS => {
+            None if depth == MOST_SPLITS || (looked > MANY && is_flat(&low, &high, point, to - from)) => {
                 reach = found(Minimum::at(primitive, 0.5 * (from + to), to - from, point));
             }
             None => {
@@ -150,6 +158,12 @@ fn by_halves(
             }
         }
     }
+}
+
+/// Whether the squared distance from `point` hardly changes over a short part of this `width`, as far as g and g' at its ends tell.
+fn is_flat(low: &Jet, high: &Jet, point: Vector2<f64>, width: f64) -> bool {
+    let slope = |jet: &Jet| jet.slope(point).abs() + width * jet.growth(point).abs();
+    2.0 * width * slope(low).max(slope(high)) <= FLAT * (low.point - point).norm_squared()
 }
 
 /// Whether g is negative at one jet and positive at the other.
@@ -205,4 +219,29 @@ pub(super) fn solve(primitive: &Primitive, bracket: (f64, f64), start: f64, poin
         u = next;
     }
     u
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Vector2;
+    use crate::curve::{Curve, CurveShape};
+    use trench_expression::Expression;
+
+    /// From the centre of a circle that is written as a graph, or is an ellipse but for a nanometre, all points are as near.
+    #[test]
+    fn centres_of_what_is_nearly_a_circle() {
+        let graph = Expression::parse("sqrt(9 - x^2)").unwrap();
+        let shapes = [
+            CurveShape::Graph { function: graph, from: -2.5, to: 2.5 },
+            CurveShape::Ellipse { centre: Vector2::zeros(), semi_axes: [3.0, 3.0 + 1e-9], rotation: 0.2 },
+        ];
+        for shape in shapes {
+            let curve = Curve::new(&shape, false, false).unwrap();
+            for off in [0.0, 1e-12, 1e-9, 1e-6] {
+                let foot = curve.nearest(Vector2::new(off, 0.3 * off));
+                assert!((foot.distance - 3.0).abs() < 2e-6, "{foot:?}");
+                assert!(curve.nearest_all(Vector2::new(off, 0.3 * off)).feet.len() < 100_000);
+            }
+        }
+    }
 }

@@ -103,6 +103,11 @@ impl<'a> Placed<'a> {
         self.map_from_curve.rotation * direction
     }
 
+    /// A direction of the frame in which the curve moves in the curve's.
+    pub(super) fn direction_to_curve(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        self.map_from_curve.rotation.inverse() * direction
+    }
+
     /// A point of the curve's frame in that in which it moves, m.
     pub fn point_to_map(self, point: Vector2<f64>) -> Vector2<f64> {
         self.map_from_curve.transform_point(&point.into()).coords

@@ -14,5 +14,6 @@ mod shape;
 pub use area::RepulsiveArea;
 pub use combine::{ApparentObstacle, Obstacle, combine, combine_unless};
 pub use error::HullError;
+pub(crate) use outline::Feature;
 pub use outline::{Approach, Outline};
 pub use shape::Shape;

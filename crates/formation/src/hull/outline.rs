@@ -22,7 +22,44 @@ pub struct Approach {
     pub towards: Vector2<f64>,
 }
 
+/// What of a polygon is nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Feature {
+    /// A corner, and those beside it, m.
+    Corner { at: Vector2<f64>, neighbours: [Option<Vector2<f64>>; 2] },
+    /// An edge: how far its ends are from where the point is abreast of it, m.
+    Edge { before: f64, behind: f64 },
+    /// The polygon holds the point.
+    Inside,
+}
+
 impl Outline<'_> {
+    /// What of the polygon itself is nearest to `point`.
+    pub(crate) fn feature(&self, point: Vector2<f64>) -> Feature {
+        if self.holds(point) {
+            return Feature::Inside;
+        }
+        let (count, mut nearest) = (self.points.len(), (f64::INFINITY, 0, 0.0));
+        for (index, (start, end)) in self.edges().enumerate() {
+            let (edge, offset) = (end - start, point - start);
+            let squared = edge.norm_squared();
+            let fraction = if squared > 0.0 { (offset.dot(&edge) / squared).clamp(0.0, 1.0) } else { 0.0 };
+            let away = (offset - fraction * edge).norm_squared();
+            if away < nearest.0 {
+                nearest = (away, index, fraction);
+            }
+        }
+        let (_, index, fraction) = nearest;
+        let next = (index + 1) % count;
+        if 0.0 < fraction && fraction < 1.0 {
+            let length = (self.points[next] - self.points[index]).norm();
+            return Feature::Edge { before: fraction * length, behind: (1.0 - fraction) * length };
+        }
+        let corner = if fraction == 0.0 { index } else { next };
+        let neighbour = |by: usize| (count > 1).then(|| self.points[(corner + by) % count]);
+        Feature::Corner { at: self.points[corner], neighbours: [neighbour(1), neighbour(count - 1)] }
+    }
+
     /// Distance and direction of the outline from `point`.
     pub fn approach(&self, point: Vector2<f64>) -> Approach {
         let mut nearest = Vector2::repeat(f64::INFINITY);

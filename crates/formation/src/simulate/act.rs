@@ -68,7 +68,7 @@ impl<T: Trench> View<'_, T> {
                     let (foot, distance) = abreast.drawn(lane);
                     let (steered, drawn) = (abreast.steered(lane), Some(foot));
                     *robot = integration.held(*robot, acceleration, step);
-                    *outcome = Outcome { steered, acceleration, cut, attraction: drawn };
+                    *outcome = Outcome { steered, power: abreast.power(lane), acceleration, cut, attraction: drawn };
                     *deviation = distance;
                     continue;
                 }
@@ -78,8 +78,8 @@ impl<T: Trench> View<'_, T> {
                 let wanted = action.acceleration;
                 let acceleration = self.vicinity.admit(self.scenario, self.real, (index, *robot), wanted, since);
                 *robot = integration.held(*robot, acceleration, step);
-                let (steered, cut) = (action.steered, action.cut);
-                *outcome = Outcome { steered, acceleration, cut, attraction: action.attraction };
+                let (steered, power, cut) = (action.steered, action.powers.sum(), action.cut);
+                *outcome = Outcome { steered, power, acceleration, cut, attraction: action.attraction };
                 if tells {
                     part.places[index - part.first] = action.place.unwrap_or(robot.position);
                 }

@@ -13,6 +13,9 @@ use crate::trench::Trench;
 pub struct Outcome {
     /// What the law said, before limits.
     pub steered: Steered,
+    /// Power that what moves around the robot brought into the law's Lyapunov function besides its own rate, m^2/s^3: the sum of
+    /// [`Powers`](crate::agent::Powers).
+    pub power: f64,
     /// What was applied, within the limits and the safety filter, m/s^2.
     pub acceleration: Vector2<f64>,
     /// Whether limits cut it.

@@ -4,7 +4,7 @@ use super::links::Links;
 use super::{Integration, QueueChange};
 use crate::Vector2;
 use crate::kinematics::PointState;
-use crate::laws::{Attraction, GoalMotion, GoalTracking, Steered, ZonedAttraction};
+use crate::laws::{Attraction, GoalMotion, GoalTracking, Push, Steered, ZonedAttraction};
 use crate::trench::{ConstantDamping, Trench};
 
 /// What 6.5 simulates.
@@ -74,6 +74,17 @@ impl<T: Trench + Clone> ZonedChain<T> {
     pub fn steered(&self, index: usize) -> Steered {
         let ahead: Vec<Vector2<f64>> = self.robots.iter().take(index).map(|robot| robot.position).collect();
         self.scenario.steer(&self.robots, index, &ahead)
+    }
+
+    /// Power that leader and robots ahead bring into the Lyapunov function of the robot at `index` besides its rate: Psi' d_hat . v of
+    /// each, m^2/s^3.
+    pub fn power(&self, index: usize) -> f64 {
+        let (zoning, robot) = (&self.scenario.law.zoning, self.robots[index].position);
+        let of = |push: Push, other: &PointState| push.force.dot(&other.velocity);
+        let Some((leader, ahead)) = self.robots[..index].split_last() else { return 0.0 };
+        let heard = (leader.position - robot).norm() <= zoning.radii().rho_bar;
+        let led = if heard { of(Push::of_leader(zoning, robot, leader.position), leader) } else { 0.0 };
+        led + ahead.iter().map(|other| of(Push::of_robot_ahead(zoning, robot, other.position), other)).sum::<f64>()
     }
 
     /// The point that attracts a robot: the team goal for the chain leader.

@@ -16,6 +16,9 @@ pub struct Admissible {
 
 /// Proofs begin at this share of the range.
 pub(super) const NEAREST: f64 = 1e-9;
+/// More intervals than these are not looked at: where a slope is hardly above 0 for long, and its formula takes large terms from each other, it
+/// would be millions.
+const MOST: usize = 200_000;
 
 /// Which condition fails, and where.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -116,7 +119,7 @@ fn prove(trench: &impl Trench, range: f64) -> Result<Option<f64>, Inadmissible> 
 }
 
 /// Proves that `least` of what `bounds` says is positive on all intervals on the sides -1 and 1 of 0, from [`NEAREST`] of the range on: from
-/// where that is proved, nothing without bounds, or the place nearest to 0 where it fails (to 1e-8 m).
+/// where that is proved, nothing without bounds or where 200,000 intervals do not suffice, or the place nearest to 0 where it fails (to 1e-8 m).
 pub(super) fn first_unproved(
     bounds: impl Fn(f64, f64) -> Option<Interval>,
     least: impl Fn(f64, Interval) -> f64,
@@ -128,7 +131,12 @@ pub(super) fn first_unproved(
         cells.extend([(-1.0, 0.5 * outer, outer), (1.0, 0.5 * outer, outer)]);
         outer *= 0.5;
     }
+    let mut looked = 0;
     while let Some((side, from, to)) = cells.pop() {
+        looked += 1;
+        if looked > MOST {
+            return Ok(None);
+        }
         let Some(found) = bounds((side * from).min(side * to), (side * from).max(side * to)) else {
             return Ok(None);
         };
