@@ -111,6 +111,20 @@ fn drawn_before_the_end(line: &str) -> String {
     format!("{before}at: {times:?}{behind}")
 }
 
+/// A line of a scenario file in which what happens to a robot or its links begins before [`END`].
+fn begun_before_the_end(line: &str) -> String {
+    let events = ["from: ", "joins: ", "quits: {at: "];
+    let Some((before, rest)) = events
+        .into_iter()
+        .filter(|_| line.starts_with("- {"))
+        .find_map(|event| line.find(event).map(|place| line.split_at(place + event.len())))
+    else {
+        return line.to_owned();
+    };
+    let (time, behind) = rest.split_at(rest.find([',', '}']).unwrap());
+    format!("{before}{:?}{behind}", time.parse::<f64>().unwrap().min(0.5 * END))
+}
+
 /// A copy of a scenario that ends after a few steps, where its figures do not need more.
 fn shortened(file: &Path, folder: &Path) -> PathBuf {
     let text = fs::read_to_string(file).unwrap();
@@ -124,7 +138,7 @@ fn shortened(file: &Path, folder: &Path) -> PathBuf {
                 let whole: f64 = rest.split('#').next().unwrap().trim().parse().unwrap();
                 format!("duration: {:?}", whole.min(END))
             }
-            None => drawn_before_the_end(line),
+            None => begun_before_the_end(&drawn_before_the_end(line)),
         })
         .collect();
     let copy = folder.join(file.file_name().unwrap());
