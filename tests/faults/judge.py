@@ -42,7 +42,7 @@ GROWTH = 10_000_000
 ORPHANED = 1.0
 OK = b"\x00"
 # Who names a fault elsewhere than on /diagnostics (act.py looks there): the launcher, which says it there too, and a process that refuses to start.
-REPORTERS = ("launcher", "itself")
+REPORTERS = ("launcher", "launcher's log", "itself")
 # What the launcher says on /diagnostics of a process that dies or is stopped, as long as it does not run.
 ENDS = r"(?:has died (?!.*was started again)|was stopped by a signal and does nothing)"
 # With which a second process of a node ends.

@@ -132,6 +132,8 @@ class Launched:
         bed = [*run.get("bed", []), *(fault["bed"] for fault in run["faults"] if "bed" in fault)]
         faults = self.folder / "faults.yaml"
         faults.write_text(yaml.safe_dump({"faults": bed}))
+        # The test bed of a run that was killed left its link, and the terminal behind it may be the line's own by now.
+        (self.folder / "port").unlink(missing_ok=True)
         self.line = Line(self.folder / "port", self.folder / "plug", self.tap)
         if self.clocks:
             self._make_clocks()

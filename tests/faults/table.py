@@ -27,7 +27,7 @@ the worst of all seeds that were run:
 - in CHANGING runs somebody wants the formation otherwise, in another size, in SHAPED of them in another shape (`changes` in the matrix), while a fault is on, which is so
   for WITHIN of the FAULTS faults: it must be granted, and formed is held against the new one;
 - **diagnostic**: the one that names the fault, within 0.5 s, and was not there before; *(launcher)*: the launcher's own report of the process that
-  died or was stopped, in its log and on /diagnostics, whichever was later; *(itself)*: the word of the second process that does not start, or gets nothing; *(log)*: a node's word on its
+  died or was stopped, in its log and on /diagnostics, whichever was later; *(launcher's log)*: the same where no word passes; *(itself)*: the word of the second process that does not start, or gets nothing; *(log)*: a node's word on its
   standard error, where it has no way to others; where nobody can know of it, why;
 - **still**: where control cannot be safe, all robots concerned, which moved before, stand from 0.25 s of old information (0.5 s without goals or
   obstacles), a frame and the time to brake, until the fault is over;
