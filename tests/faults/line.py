@@ -14,6 +14,8 @@ import sys
 import termios
 import time
 import tty
+from io import BytesIO
+from pathlib import Path
 from typing import BinaryIO
 
 # In front of each piece: when it was said, s, and its length (as in wheels.py, whose modules are none of this process's concern).
@@ -82,7 +84,9 @@ def copy(source: int, target: int | None, tap: BinaryIO | None = None) -> bool:
 def main() -> None:
     """Until standard input ends."""
     be_a_wire()
-    far_link, near, tap = sys.argv[1], Near(sys.argv[2]), open(sys.argv[3], "wb")
+    far_link, near = sys.argv[1], Near(sys.argv[2])
+    # In memory until the end: a disk that is busy with bags would hold up the line.
+    tap = BytesIO()
     near.plug()
     print("ready", flush=True)
     far = None
@@ -107,7 +111,7 @@ def main() -> None:
             else:
                 near.plug()
             print("done", flush=True)
-    tap.close()
+    Path(sys.argv[3]).write_bytes(tap.getvalue())
     if near.ends:
         near.unplug()
 
