@@ -325,7 +325,9 @@ impl Bed {
                 FaultKind::Carried { .. }
                 | FaultKind::Battery { .. }
                 | FaultKind::Covered { .. }
-                | FaultKind::Frames(_) => {}
+                | FaultKind::Frames(_)
+                | FaultKind::Untold
+                | FaultKind::Blind { .. } => {}
             }
         }
         for (index, (robot, state)) in self.robots.iter_mut().zip(switched).enumerate() {

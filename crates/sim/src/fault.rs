@@ -87,6 +87,13 @@ pub enum FaultKind {
     },
     /// Something is wrong with the camera.
     Frames(FrameFault),
+    /// Nobody is told where obstacles are.
+    Untold,
+    /// What the lasers of these robots see is not told.
+    Blind {
+        /// Whose.
+        robots: Vec<usize>,
+    },
 }
 
 /// What somebody without the key does on the air.
@@ -145,6 +152,8 @@ impl FaultKind {
             Self::Frames(FrameFault::Half) => "half",
             Self::Frames(FrameFault::Late(_)) => "late",
             Self::Frames(FrameFault::Every(_)) => "every",
+            Self::Untold => "untold",
+            Self::Blind { .. } => "blind",
         }
     }
 }

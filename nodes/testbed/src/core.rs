@@ -1,7 +1,6 @@
 //! The node core: lets the world go on whenever something is due, and publishes what comes out.
 
 use crate::frames::Picture;
-use crate::hush::Unsaid;
 use crate::interface::Ports;
 use crate::messages;
 use crate::settings::Settings;
@@ -25,8 +24,6 @@ pub struct Testbed {
     pub(crate) settings: Settings,
     /// The world, from the node's start on.
     bed: Option<Bed>,
-    /// When it started, ns of the monotonic clock.
-    began: u64,
     /// Where the numbers come from that its robots draw: another in each process, but in lock-step.
     nonces: u64,
     /// One a camera; none if nothing is rendered.
@@ -60,7 +57,6 @@ impl Testbed {
             random: Random::new(settings.bed.seed, 2),
             renderers,
             bed: None,
-            began: 0,
             nonces: context.seed,
             last_frame: None,
             pictures: VecDeque::new(),
@@ -83,7 +79,6 @@ impl Testbed {
     fn start(&mut self, at: Times, sink: &mut dyn Sink) {
         let mut setup = self.settings.bed.clone();
         setup.start = at.steady.0;
-        self.began = at.steady.0;
         setup.nonces = self.nonces;
         sink.log(Level::Info, &format!("{} robots, base station at {}", setup.robots.len(), self.settings.link));
         self.bed = Some(Bed::new(setup));
@@ -97,7 +92,7 @@ impl Testbed {
             match output {
                 Output::Serial { bytes, .. } => sink.write_bytes(STREAM, &bytes),
                 Output::Frame(frame) => self.frame(at, &bed, frame, sink),
-                Output::Scan(scan) => self.scan(at, scan, sink),
+                Output::Scan(scan) => self.scan(at, &bed, scan, sink),
                 Output::Contact(contact) => {
                     self.contacts += 1;
                     let message = messages::contact(ros(at, contact.at), &contact, &self.settings.robots);
@@ -109,16 +104,17 @@ impl Testbed {
                 }
             }
         }
-        self.show(at, sink);
+        self.show(at, &bed, sink);
         self.tell_faults(at, &bed);
         self.bed = Some(bed);
     }
 
-    fn scan(&self, at: Times, scan: Scan, sink: &mut dyn Sink) {
-        let Settings { robots, bed, hushes, .. } = &self.settings;
-        if !hushes.tell_scans(self.since_start(scan.at), scan.robot) {
+    fn scan(&self, at: Times, bed: &Bed, scan: Scan, sink: &mut dyn Sink) {
+        let blind = |fault: &FaultKind| matches!(fault, FaultKind::Blind { robots } if robots.contains(&scan.robot));
+        if bed.faults_at(scan.at).any(blind) {
             return;
         }
+        let Settings { robots, bed, .. } = &self.settings;
         let laser = bed.lasers.iter().position(|robot| *robot == scan.robot);
         if let (Some(name), Some(laser)) = (robots.get(scan.robot), laser) {
             let message = messages::scan(ros(at, scan.at), name, &bed.laser, scan.ranges);
@@ -126,15 +122,9 @@ impl Testbed {
         }
     }
 
-    /// An instant of the monotonic clock as faults count it.
-    pub(crate) fn since_start(&self, instant: u64) -> u64 {
-        instant.saturating_sub(self.began)
-    }
-
     /// Says what is wrong on purpose.
     fn tell_faults(&mut self, at: Times, bed: &Bed) {
-        let unsaid = self.settings.hushes.at(self.since_start(at.steady.0)).map(Unsaid::name);
-        let names: Vec<&str> = bed.faults_at(at.steady.0).map(FaultKind::name).chain(unsaid).collect();
+        let names: Vec<&str> = bed.faults_at(at.steady.0).map(FaultKind::name).collect();
         match names.is_empty() {
             true => self.health.set("faults", Condition::Ok, "none"),
             false => self.health.set("faults", Condition::Warn, names.join(", ")),

@@ -6,7 +6,6 @@
 //!   - {kind: frozen, from: 20.0, to: 20.5}
 //! ```
 
-use crate::hush::{Hush, Hushes, Unsaid};
 use trench_config::{ConfigError, yaml, yaml::Map};
 use trench_optics::Pose2;
 use trench_sim::{Fault, FaultKind, Faults, FrameFault, Intrusion};
@@ -38,44 +37,21 @@ const KINDS: [&str; 23] = [
     "blind",
 ];
 
-/// Reads the text of such a file; `file` names it in errors. Gives what is wrong in the world, and what the node does not say of it.
-pub(crate) fn parse(file: &str, text: &str, names: &[String]) -> Result<(Faults, Hushes), ConfigError> {
+/// Reads the text of such a file; `file` names it in errors.
+pub(crate) fn parse(file: &str, text: &str, names: &[String]) -> Result<Faults, ConfigError> {
     let root = yaml::parse(file, text)?;
     let top = root.map()?;
-    let (mut faults, mut hushes) = (Vec::new(), Vec::new());
-    for node in top.list("faults")? {
-        let map = node.map()?;
-        let (from, to) = span(&map)?;
-        match unsaid(&map, names)? {
-            Some(what) => hushes.push(Hush { from, to, what }),
-            None => faults.push(Fault { from, to, kind: kind(&map, names)? }),
-        }
-        map.finish()?;
-    }
+    let faults = top.list("faults")?.iter().map(|node| fault(&node.map()?, names)).collect::<Result<_, _>>()?;
     top.finish()?;
-    Ok((Faults::new(faults), Hushes(hushes)))
+    Ok(Faults::new(faults))
 }
 
-/// From when to when, ns after the start.
-fn span(map: &Map<'_>) -> Result<(u64, u64), ConfigError> {
+fn fault(map: &Map<'_>, names: &[String]) -> Result<Fault, ConfigError> {
     let (from, to) = (map.f64("from")?, map.f64("to")?);
     if !(from >= 0.0 && to > from && to.is_finite()) {
         return Err(map.error("to", "is not after from, or from is before the start", "write seconds, from < to"));
     }
-    let nanoseconds = |seconds: f64| (1e9 * seconds) as u64;
-    Ok((nanoseconds(from), nanoseconds(to)))
-}
-
-fn unsaid(map: &Map<'_>, names: &[String]) -> Result<Option<Unsaid>, ConfigError> {
-    Ok(match map.str("kind")? {
-        "untold" => Some(Unsaid::Obstacles),
-        "blind" => Some(Unsaid::Scans(robots(map, names)?)),
-        _ => None,
-    })
-}
-
-fn kind(map: &Map<'_>, names: &[String]) -> Result<FaultKind, ConfigError> {
-    Ok(match map.str("kind")? {
+    let kind = match map.str("kind")? {
         "slip" => FaultKind::Slip { robots: robots(map, names)?, grip: [share(map, "left")?, share(map, "right")?] },
         "carried" => {
             let [x, y, theta]: [f64; 3] = map.get("pose")?;
@@ -124,8 +100,13 @@ fn kind(map: &Map<'_>, names: &[String]) -> Result<FaultKind, ConfigError> {
             let frames = frames.ok_or_else(|| map.error("frames", "is not positive", "write 6: each sixth comes"))?;
             FaultKind::Frames(FrameFault::Every(frames))
         }
+        "untold" => FaultKind::Untold,
+        "blind" => FaultKind::Blind { robots: robots(map, names)? },
         _ => return Err(map.error("kind", "is no fault", format!("write one of {}", KINDS.join(", ")))),
-    })
+    };
+    map.finish()?;
+    let nanoseconds = |seconds: f64| (1e9 * seconds) as u64;
+    Ok(Fault { from: nanoseconds(from), to: nanoseconds(to), kind })
 }
 
 fn robots(map: &Map<'_>, names: &[String]) -> Result<Vec<usize>, ConfigError> {
@@ -149,7 +130,7 @@ fn share(map: &Map<'_>, key: &str) -> Result<f64, ConfigError> {
 mod tests {
     use super::*;
 
-    fn read(line: &str) -> Result<(Faults, Hushes), String> {
+    fn read(line: &str) -> Result<Faults, String> {
         let names = ["robot1".to_owned(), "robot2".to_owned()];
         parse("faults.yaml", &format!("faults:\n- {line}\n"), &names).map_err(|error| error.to_string())
     }
@@ -184,9 +165,8 @@ mod tests {
         assert_eq!(rest.map(|(kind, _)| kind), KINDS);
         for (kind, rest) in rest {
             let line = format!("{{kind: {kind}, from: 1.0, to: 2.0, {rest}}}");
-            let (faults, hushes) = read(&line).unwrap_or_else(|error| unreachable!("{error}"));
-            let of_world = |time| faults.at(time).map(FaultKind::name);
-            let names = |time| of_world(time).chain(hushes.at(time).map(Unsaid::name)).collect::<Vec<_>>();
+            let faults = read(&line).unwrap_or_else(|error| unreachable!("{error}"));
+            let names = |time| faults.at(time).map(FaultKind::name).collect::<Vec<_>>();
             assert_eq!((names(999_999_999), names(1_000_000_000)), (vec![], vec![kind]), "{line}");
         }
     }

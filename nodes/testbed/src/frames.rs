@@ -57,7 +57,7 @@ impl Testbed {
             self.last_frame = Some(picture.frame.clone());
             self.pictures.push_back(picture);
         }
-        self.show(at, sink);
+        self.show(at, bed, sink);
     }
 
     /// When the next picture comes out.
@@ -66,18 +66,18 @@ impl Testbed {
     }
 
     /// Publishes the pictures whose time has come.
-    pub(crate) fn show(&mut self, at: Times, sink: &mut dyn Sink) {
+    pub(crate) fn show(&mut self, at: Times, bed: &Bed, sink: &mut dyn Sink) {
         while self.next_picture().is_some_and(|ready| ready <= at.steady) {
             let Some(picture) = self.pictures.pop_front() else { return };
             if at.steady.seconds_since(Steady(picture.frame.ready_at)) > LATEST {
                 self.dropped += 1;
             } else {
-                self.publish(at, &picture, sink);
+                self.publish(at, bed, &picture, sink);
             }
         }
     }
 
-    fn publish(&mut self, at: Times, picture: &Picture, sink: &mut dyn Sink) {
+    fn publish(&mut self, at: Times, bed: &Bed, picture: &Picture, sink: &mut dyn Sink) {
         let frame = &picture.frame;
         let stamp = ros(at, frame.exposed_at);
         self.published += 1;
@@ -90,8 +90,8 @@ impl Testbed {
             let info = messages::camera_info(stamp, &view.frame_id(), view.camera.lens());
             sink.publish(self.ports.cameras[camera].info, &info);
         }
-        let told = self.settings.hushes.tell_obstacles(self.since_start(at.steady.0));
-        if let Some(port) = self.ports.obstacles.filter(|_| told) {
+        let untold = bed.faults_at(at.steady.0).any(|fault| *fault == FaultKind::Untold);
+        if let Some(port) = self.ports.obstacles.filter(|_| !untold) {
             sink.publish(port, &messages::obstacles(stamp, &frame.obstacles));
         }
         if let Some(port) = self.ports.clock {

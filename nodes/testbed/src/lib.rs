@@ -9,7 +9,6 @@ mod core;
 mod detections;
 mod faults;
 mod frames;
-mod hush;
 mod interface;
 mod messages;
 mod obstacles;

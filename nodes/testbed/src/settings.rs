@@ -1,6 +1,5 @@
 //! The test bed's parameters.
 
-use crate::hush::Hushes;
 use crate::poses::poses;
 use crate::{faults, obstacles, radio};
 use trench_config::{ConfigError, ParameterDescriptor as P, Parameters};
@@ -24,8 +23,6 @@ pub(crate) struct Settings {
     pub(crate) publish_clock: bool,
     /// Whether somebody is told of obstacles: of those of a file, though there be none in it.
     pub(crate) publish_obstacles: bool,
-    /// When it does not say what it is to say.
-    pub(crate) hushes: Hushes,
 }
 
 pub(crate) fn descriptors() -> Vec<P> {
@@ -115,13 +112,9 @@ impl Settings {
             height: double("pad.height")?,
             body_diameter: 2.0 * double("body.radius")?,
         };
-        let (faults, hushes) = match parameters.str("faults_file")? {
-            "" => Default::default(),
-            path => faults::parse(path, &files.read("faults_file", path)?, parameters.str_list("robots")?)?,
-        };
         Ok(Self {
             robots: parameters.str_list("robots")?.to_vec(),
-            bed: bed(parameters, files, faults)?,
+            bed: bed(parameters, files)?,
             link,
             cameras: cameras(parameters, files)?,
             pad,
@@ -130,12 +123,11 @@ impl Settings {
             detection_noise: double("detections.noise")?,
             publish_clock: parameters.bool("publish_clock")?,
             publish_obstacles: parameters.bool("publish_obstacles")? && !parameters.str("obstacles_file")?.is_empty(),
-            hushes,
         })
     }
 }
 
-fn bed(parameters: &Parameters, files: &dyn Files, faults: Faults) -> Result<BedSetup, ConfigError> {
+fn bed(parameters: &Parameters, files: &dyn Files) -> Result<BedSetup, ConfigError> {
     let double = |name: &str| parameters.f64(name);
     let seed = parameters.i64("seed")? as u64;
     let motor = match parameters.str("plant")? {
@@ -155,6 +147,10 @@ fn bed(parameters: &Parameters, files: &dyn Files, faults: Faults) -> Result<Bed
             let key = Key::from_hex(&files.read_secret("key_file", path)?);
             Some(key.map_err(|error| parameters.error("key_file", error.to_string(), "write such a file"))?)
         }
+    };
+    let faults = match parameters.str("faults_file")? {
+        "" => Faults::default(),
+        path => faults::parse(path, &files.read("faults_file", path)?, parameters.str_list("robots")?)?,
     };
     let poses = poses(parameters, field, body, &obstacles, seed)?;
     let medium = radio::medium(parameters)?;
