@@ -38,4 +38,4 @@ pub use node_core::{NodeContext, NodeCore, StartError};
 pub use outbox::{Action, Outbox};
 pub use refusals::Refusals;
 pub use sink::{Level, Sink};
-pub use time::{RosTime, Steady, Times, duration_from_seconds};
+pub use time::{FromTheFuture, RosTime, Steady, Times, duration_from_seconds};

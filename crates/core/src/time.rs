@@ -20,6 +20,11 @@ pub struct Times {
     pub steady: Steady,
 }
 
+/// What a message tells of has not been yet: it is so far ahead of our clock, s.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("it is {0:.3} s from the future")]
+pub struct FromTheFuture(pub f64);
+
 impl Times {
     /// What was seen so far ahead of our clock, s, was stamped by a wrong one: those after it would be older.
     pub const FUTURE: f64 = 0.5;
@@ -27,11 +32,13 @@ impl Times {
     /// Who tells of what was longer ago than this, s, is not who robots are driven by now.
     pub const PAST: f64 = 1.0;
 
-    /// How far `stamp` is in the future, s, if that is more than [`Self::FUTURE`]. While ROS time is zero nobody knows (/clock has not begun).
-    #[must_use]
-    pub fn from_the_future(self, stamp: RosTime) -> Option<f64> {
+    /// Whether what was stamped so can have been by now. While ROS time is zero nobody knows (/clock has not begun).
+    ///
+    /// # Errors
+    /// How far ahead it is, if that is more than [`Self::FUTURE`].
+    pub fn timely(self, stamp: RosTime) -> Result<(), FromTheFuture> {
         let ahead = stamp.seconds_since(self.ros);
-        (self.ros != RosTime(0) && ahead > Self::FUTURE).then_some(ahead)
+        if self.ros != RosTime(0) && ahead > Self::FUTURE { Err(FromTheFuture(ahead)) } else { Ok(()) }
     }
 
     /// Whether `stamp` is longer ago than [`Self::PAST`]. While ROS time is zero nobody knows.
@@ -90,5 +97,22 @@ pub fn duration_from_seconds(seconds: f64) -> Duration {
     Duration {
         sec: nanoseconds.div_euclid(1_000_000_000) as i32,
         nanosec: nanoseconds.rem_euclid(1_000_000_000) as u32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_future_is_known_once_there_is_a_time() {
+        let timely = |now: f64, stamp: f64| {
+            let at = Times { ros: RosTime(0).plus_seconds(now), steady: Steady(0) };
+            at.timely(RosTime(0).plus_seconds(stamp))
+        };
+        assert_eq!(timely(100.0, 100.4), Ok(()));
+        assert_eq!(timely(100.0, -3600.0), Ok(()), "how old it is others say");
+        assert_eq!(timely(100.0, 100.9).unwrap_err().to_string(), "it is 0.900 s from the future");
+        assert_eq!(timely(0.0, 100.9), Ok(()));
     }
 }

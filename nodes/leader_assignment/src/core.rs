@@ -10,8 +10,9 @@ use crate::{RunMachine, Target};
 use std::collections::BTreeMap;
 use trench_config::{ConfigError, Parameters};
 use trench_core::{
-    Advertise, Event, Files, Health, Interface, JumpWatch, Local, Master, NodeContext, NodeCore, NodeDescription,
-    NotMaster, Qos, Refusals, RosTime, Serve, Sink, Source, StartError, Steady, Subscribe, Times, resolve_name,
+    Advertise, Event, Files, FromTheFuture, Health, Interface, JumpWatch, Local, Master, NodeContext, NodeCore,
+    NodeDescription, NotMaster, Qos, Refusals, RosTime, Serve, Sink, Source, StartError, Steady, Subscribe, Times,
+    resolve_name,
 };
 use trench_msgs::cdr::CdrError;
 use trench_msgs::diagnostic_msgs::DiagnosticArray;
@@ -44,8 +45,8 @@ enum Dropped {
     NotMaster(#[from] NotMaster),
     #[error("a number in it is not finite")]
     NotFinite,
-    #[error("it is {0:.3} s from the future")]
-    Future(f64),
+    #[error(transparent)]
+    Future(#[from] FromTheFuture),
     #[error("it is more than {past} s old", past = Times::PAST)]
     Past,
 }
@@ -204,9 +205,7 @@ fn readable(at: Times, cdr: &[u8]) -> Result<TeamState, Dropped> {
     if !team.is_finite() {
         return Err(Dropped::NotFinite);
     }
-    if let Some(ahead) = at.from_the_future(stamp) {
-        return Err(Dropped::Future(ahead));
-    }
+    at.timely(stamp)?;
     if at.is_past(stamp) { Err(Dropped::Past) } else { Ok(team) }
 }
 

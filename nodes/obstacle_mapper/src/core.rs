@@ -290,8 +290,7 @@ impl ObstacleMapper {
 
 /// Whether what a message tells of can have been by now.
 fn timely(at: Times, header: &Header) -> Result<(), String> {
-    let ahead = at.from_the_future(RosTime::from(&header.stamp));
-    ahead.map_or(Ok(()), |_| Err("its stamp is in the future".to_owned()))
+    at.timely(RosTime::from(&header.stamp)).map_err(|_| "its stamp is in the future".to_owned())
 }
 
 /// An apparent obstacle with the velocity of its fastest member.

@@ -4,7 +4,7 @@ use crate::frozen::Frozen;
 use crate::gather::{Gather, Look};
 use crate::intake::{Intake, Sighting};
 use crate::memory::Memory;
-use crate::refusal::{Dropped, Refusal, timely};
+use crate::refusal::{Dropped, Refusal};
 use crate::report::{PERIOD, Report};
 use crate::settings::{Input, Pattern, Settings, descriptors, foreign};
 use crate::stream::Stream;
@@ -134,7 +134,7 @@ impl OverheadLocalizer {
         let Self { intakes, stream, gather, sightings, .. } = self;
         let Some(intake) = intakes.get_mut(camera) else { return Ok(()) };
         let is_new = |stamp: RosTime| {
-            timely(at, stamp)?;
+            at.timely(stamp)?;
             Ok(match gather {
                 None => stream.take(at.steady, source, stamp),
                 Some(gather) => gather.wants(camera, stamp).then_some(0.0),
@@ -191,7 +191,7 @@ impl OverheadLocalizer {
     /// Pads of another vision system.
     fn pads(&mut self, at: Times, source: Source, cdr: &[u8], sink: &mut dyn Sink) -> Result<(), Dropped> {
         let (stamp, pads) = pads::read(cdr, &self.settings.pad_ids)?;
-        timely(at, RosTime::from(&stamp))?;
+        at.timely(RosTime::from(&stamp)).map_err(Refusal::from)?;
         if let Some(interval) = self.stream.take(at.steady, source, RosTime::from(&stamp)) {
             self.tracker.step_pads(interval, &pads);
             self.told(at, stamp, source.sequence, pads.len(), sink);

@@ -63,9 +63,7 @@ impl EmergencyStop {
         let said_stop = self.awaited.remove(&publisher) || before.is_some_and(|(_, stop)| stop);
         let begins = stop && !self.active;
         self.active |= stop;
-        if self.words.len() >= self.writers {
-            self.silent_since = None;
-        }
+        self.look_for_silence(None);
         let changes = (said_stop != stop).then_some(News::Words);
         if begins { Some(News::Begins) } else { changes }
     }
@@ -82,9 +80,7 @@ impl EmergencyStop {
             self.words.remove(&publisher);
         } else if was_awaited {
             self.words.insert(publisher, (0, true));
-            if self.words.len() >= self.writers {
-                self.silent_since = None;
-            }
+            self.look_for_silence(None);
         }
     }
 
@@ -99,11 +95,13 @@ impl EmergencyStop {
                 self.words.remove(&gid);
             }
         }
-        if self.words.len() >= count {
-            self.silent_since = None;
-        } else if came {
-            self.silent_since = Some(now);
-        }
+        self.look_for_silence(came.then_some(now));
+    }
+
+    /// Nobody reaches for the button any more once all have spoken; somebody does who `came`.
+    fn look_for_silence(&mut self, came: Option<Steady>) {
+        let all_have_spoken = self.words.len() >= self.writers;
+        self.silent_since = if all_have_spoken { None } else { came.or(self.silent_since) };
     }
 
     /// The operator wants to go on.
