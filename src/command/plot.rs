@@ -178,17 +178,21 @@ fn save(
     Ok(())
 }
 
+/// What is wrong with a file that is no scenario: only launch files are to be run elsewhere.
+fn without_run(path: &Path) -> PlotError {
+    let name = path.display().to_string();
+    let found = Disk.read("FILE", &name).and_then(|text| kind(&name, &text));
+    match found {
+        Ok(Kind::Launch) => PlotError::Launch(path.to_owned()),
+        Ok(_) => PlotError::NoRun(path.to_owned()),
+        Err(error) => PlotError::Scenario(error),
+    }
+}
+
 /// A run, and the scenario that it is of, if it is known.
 fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
     if path.extension().is_some_and(|extension| extension == "yaml") {
-        // What no file of ours is, is told first: only launch files are to be run elsewhere.
-        let name = path.display().to_string();
-        match kind(&name, &Disk.read("FILE", &name)?)? {
-            Kind::Scenario => {}
-            Kind::Launch => return Err(PlotError::Launch(path.to_owned())),
-            Kind::Formation | Kind::Parameters => return Err(PlotError::NoRun(path.to_owned())),
-        }
-        let Some((scenario, text)) = sim::read(path)? else { return Err(PlotError::Launch(path.to_owned())) };
+        let Some((scenario, text)) = sim::read(path)? else { return Err(without_run(path)) };
         if let Task::Launch(launch) = &scenario.task {
             return Ok((sim::launched(path, launch)?, Some(scenario)));
         }

@@ -5,12 +5,13 @@ use crate::damping::{Damped, chain_damping};
 use crate::gains::{exponents, gains};
 use crate::limits::{Largest, of_controller};
 use crate::potential::potential;
+use crate::stiffness::steepest;
 use crate::verdict::number;
 use crate::walls_of_controller::{potential_of_obstacles, reach, walls_of_controller, zoning};
 use crate::zones::zones;
 use trench_config::{ConfigError, Parameters};
 use trench_formation::laws::{Family, Robust};
-use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_formation::trench::AnyTrench;
 use trench_plan::{TRENCH_RANGE, trench_from_parameters};
 
 /// A formation_controller by its full name, with its parameters.
@@ -73,7 +74,7 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
     }
     // The trench of (5.2) is its own, and has no bound.
     if law != "goal_damped" {
-        let pull = check_admissibility(&trench, TRENCH_RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+        let pull = steepest(&trench, TRENCH_RANGE);
         let full = parameters.f64("zones.full_acceleration")?;
         let zones = if matches!(law, "zoned" | "chain") { full } else { 0.0 };
         // How many robots and obstacles there will be is not a controller's to know.
@@ -87,7 +88,7 @@ fn dynamic(name: &str, law: &str, parameters: &Parameters) -> Result<Vec<Verdict
 
 /// The trench's largest pull across the field, which robots follow up to their acceleration, m/s^2.
 fn trench_pull(trench: &AnyTrench, parameters: &Parameters) -> Result<f64, ConfigError> {
-    let pull = check_admissibility(trench, reach(parameters)?).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+    let pull = steepest(trench, reach(parameters)?);
     Ok(pull.min(parameters.f64("motion.acceleration")?))
 }
 

@@ -139,14 +139,11 @@ pub(crate) fn chain_damping(name: &str, of: &Damped) -> Verdict {
     let worst = zones.max(obstacles.unwrap_or(0.0));
     match of.measured() {
         Some(measured) if worst <= measured.share => {
-            let chains = match of.robots {
-                Some(_) => format!("chains of up to {} robots", measured.robots),
-                None => {
-                    format!("chains of up to {} robots (how many there will be is not known here)", measured.robots)
-                }
-            };
-            let finding =
-                format!("{finding}: up to {} {chains} that were measured did not whip", number(measured.share));
+            let (share, robots) = (number(measured.share), measured.robots);
+            let unknown = if of.robots.is_none() { " (how many there will be is not known here)" } else { "" };
+            let finding = format!(
+                "{finding}: up to {share} chains of up to {robots} robots{unknown} that were measured did not whip"
+            );
             Verdict::new("damping", name, true, finding, EQUATION)
         }
         Some(measured) => {

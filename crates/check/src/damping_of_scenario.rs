@@ -2,9 +2,10 @@
 
 use crate::damping::Damped;
 use crate::scenario::{RANGE, least_sine};
+use crate::stiffness::steepest;
 use crate::walls_of_scenario::least_turn;
 use trench_formation::simulate::{ChainScenario, ZonedChainScenario};
-use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_formation::trench::AnyTrench;
 
 /// Of a chain along directions of attraction.
 pub(crate) fn damped_directed(chain: &ZonedChainScenario<AnyTrench>) -> Damped {
@@ -52,5 +53,5 @@ pub(crate) fn damped_nearest(task: &ChainScenario<AnyTrench>) -> Damped {
 
 /// The largest pull of a trench as far as robots begin from what draws them, m/s^2.
 fn pull(trench: &AnyTrench, farthest: f64) -> f64 {
-    check_admissibility(trench, farthest.clamp(1.0, RANGE)).map_or(f64::INFINITY, |found| found.lipschitz_constant)
+    steepest(trench, farthest.clamp(1.0, RANGE))
 }

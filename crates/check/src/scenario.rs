@@ -11,6 +11,7 @@ use crate::potential::potential;
 use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
 use crate::step_of_scenario::step;
+use crate::stiffness::steepest;
 use crate::transits::transits;
 use crate::verdict::number;
 use crate::walls_of_scenario::{walls_of_directed, walls_of_nearest};
@@ -22,7 +23,7 @@ use trench_formation::curve::Placed;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::simulate::ChainScenario;
-use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping, check_admissibility};
+use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping};
 use trench_formation::zoning::Radii;
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
 
@@ -67,7 +68,7 @@ fn of_task(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 let damped = Verdict::new("damping", &name, holds, finding, "k > 0 (Theorem 5.3.1, A.10)");
                 let able = bounds.map(|bounds| {
                     let largest =
-                        Largest { trench: steepest(&law.trench), zones: 0.0, obstacles: 0.0, at_once: [0, 0] };
+                        Largest { trench: steepest(&law.trench, RANGE), zones: 0.0, obstacles: 0.0, at_once: [0, 0] };
                     of_scenario(&name, &largest, &bounds.limits)
                 });
                 [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able)
@@ -193,7 +194,7 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, durati
 fn actuators(subject: &str, task: &ChainScenario<AnyTrench>, limits: &Capability) -> Verdict {
     let obstacles = if task.obstacles.is_empty() { 0.0 } else { task.potential.full_acceleration() };
     // Along a direction the trench counts Phi'/sin alpha, as chapter 7 of docs/theory has it.
-    let (trench, zones) = (steepest(&task.law.trench) / least_sine(task), task.zoning.full_acceleration());
+    let (trench, zones) = (steepest(&task.law.trench, RANGE) / least_sine(task), task.zoning.full_acceleration());
     let at_once = [task.robots.len().saturating_sub(1), task.obstacles.len()];
     of_scenario(subject, &Largest { trench, zones, obstacles, at_once }, limits)
 }
@@ -204,11 +205,6 @@ pub(crate) fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
         Some(Method::Directed { direction: Some(along), .. }) => task.segment.least_sine(along),
         _ => 1.0,
     }
-}
-
-/// The largest slope of a trench; infinite of one that is not admissible.
-pub(crate) fn steepest(trench: &AnyTrench) -> f64 {
-    check_admissibility(trench, RANGE).map_or(f64::INFINITY, |found| found.lipschitz_constant)
 }
 
 /// Radius of the robots' bodies, where the scenario says one.

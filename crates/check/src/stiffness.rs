@@ -1,6 +1,6 @@
-//! How stiff a trench is at its bottom.
+//! How stiff a trench is at its bottom, and how steep it is anywhere.
 
-use trench_formation::trench::Trench;
+use trench_formation::trench::{AnyTrench, Trench, check_admissibility};
 
 /// m from the bottom, where its slope is looked at.
 const BESIDE: f64 = 1e-6;
@@ -16,10 +16,15 @@ pub(crate) fn stiffness(trench: &dyn Trench) -> Option<f64> {
     (is_linear && near > 0.0).then_some(near)
 }
 
+/// The largest slope of a trench, its pull in m/s^2, up to `range` (m); infinite of one that is not admissible.
+pub(crate) fn steepest(trench: &AnyTrench, range: f64) -> f64 {
+    check_admissibility(trench, range).map_or(f64::INFINITY, |found| found.lipschitz_constant)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trench_formation::trench::{Conic, Hyperbolic, Quadratic, SlopeTable, Trench};
+    use trench_formation::trench::{Conic, Hyperbolic, Quadratic, SlopeTable};
 
     fn check(trench: &dyn Trench, expected: Option<f64>) {
         let near = |found: f64| expected.is_some_and(|expected| (found - expected).abs() <= 1e-9 * expected);

@@ -1,9 +1,10 @@
 //! What zones and obstacles of a controller are held against.
 
 use crate::Verdict;
+use crate::stiffness::steepest;
 use crate::walls::{Coming, Wall, walls};
 use trench_config::{ConfigError, Parameters};
-use trench_formation::trench::{AnyTrench, check_admissibility};
+use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::{Edge, ObstaclePotential, Radii, Sharpness, Zoning};
 use trench_plan::TRENCH_RANGE;
 
@@ -14,7 +15,7 @@ pub(crate) fn walls_of_controller(
     trench: &AnyTrench,
     parameters: &Parameters,
 ) -> Result<Option<Verdict>, ConfigError> {
-    let pull = check_admissibility(trench, reach(parameters)?).map_or(f64::INFINITY, |found| found.lipschitz_constant);
+    let pull = steepest(trench, reach(parameters)?);
     // Zones and obstacles that make no potential are for other verdicts, and for the node.
     let key = "zones.full_acceleration";
     let mut all: Vec<Wall> =

@@ -1,7 +1,8 @@
 //! What zones and obstacles of a scenario are held against.
 
 use crate::Verdict;
-use crate::scenario::{least_sine, steepest};
+use crate::scenario::{RANGE, least_sine};
+use crate::stiffness::steepest;
 use crate::walls::{Coming, Wall, walls};
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
@@ -15,7 +16,7 @@ const OBSTACLES: &str = "obstacle_potential.full_acceleration";
 
 /// Whether zones hold against the trench along directions of attraction.
 pub(crate) fn walls_of_directed(subject: &str, chain: &ZonedChainScenario<AnyTrench>) -> Option<Verdict> {
-    let pull = steepest(&chain.law.trench) / least_turn(chain);
+    let pull = steepest(&chain.law.trench, RANGE) / least_turn(chain);
     let coming = coming(pull, chain.law.damping, &chain.robots, Vector2::zeros(), None);
     let all = (chain.robots.len() > 1).then(|| Wall::zones(&chain.law.zoning, ZONES));
     walls(subject, &coming, all.as_slice())
@@ -23,7 +24,7 @@ pub(crate) fn walls_of_directed(subject: &str, chain: &ZonedChainScenario<AnyTre
 
 /// Whether zones and obstacles hold against the trench.
 pub(crate) fn walls_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -> Option<Verdict> {
-    let (pull, still) = (steepest(&task.law.trench) / least_sine(task), task.carriage.velocity);
+    let (pull, still) = (steepest(&task.law.trench, RANGE) / least_sine(task), task.carriage.velocity);
     let mut all = Vec::new();
     if task.robots.len() > 1 {
         all.push(Wall::zones(&task.zoning, ZONES));

@@ -30,12 +30,18 @@ pub(super) fn not_negative(map: &Map<'_>, key: &str, default: f64) -> Result<f64
     if value >= 0.0 { Ok(value) } else { Err(map.error(key, "is negative", "write 0 or more")) }
 }
 
-/// A time of a key (s), if it is one of the run: what is to happen at another time would never happen, and nothing would tell.
-pub(super) fn within_run(map: &Map<'_>, key: &str, time: f64, timing: &Timing) -> Result<f64, ConfigError> {
-    let Timing { duration, step, .. } = timing;
+/// Whether a time of a key (s) is not before the run.
+pub(super) fn from_the_start(map: &Map<'_>, key: &str, time: f64) -> Result<(), ConfigError> {
     if time < 0.0 {
         return Err(map.error(key, format!("{time} s is before the run"), "write seconds from 0 on"));
     }
+    Ok(())
+}
+
+/// A time of a key (s), if it is one of the run: what is to happen at another time would never happen, and nothing would tell.
+pub(super) fn within_run(map: &Map<'_>, key: &str, time: f64, timing: &Timing) -> Result<f64, ConfigError> {
+    from_the_start(map, key, time)?;
+    let Timing { duration, step, .. } = timing;
     if time > duration + 0.5 * step {
         let remedy = format!("write seconds up to its end, {duration}, or make the `duration` longer");
         return Err(map.error(key, format!("{time} s is after the run"), remedy));

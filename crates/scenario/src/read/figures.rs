@@ -1,5 +1,6 @@
 //! `figures:` the pictures that belong to a scenario.
 
+use super::common::{from_the_start, within_run};
 use crate::scenario::{Drawing, Figure, Scenario, Task};
 use trench_config::yaml::Node;
 use trench_config::{ConfigError, did_you_mean};
@@ -45,8 +46,8 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
     {
         return Err(map.error("window", "is empty", "write [left, right, bottom, top]"));
     }
-    if let Some(at) = figure.at.iter().find(|at| **at < 0.0) {
-        return Err(map.error("at", format!("{at} s is before the run"), "write seconds from 0 on"));
+    for at in &figure.at {
+        from_the_start(&map, "at", *at)?;
     }
     if matches!(scenario.task, Task::Launch(_)) {
         let drawn = [Drawing::Trajectories, Drawing::Errors, Drawing::Snapshots, Drawing::Speeds];
@@ -56,10 +57,8 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
         }
         return Ok(figure);
     }
-    let end = scenario.timing.duration;
-    if let Some(at) = figure.at.iter().find(|at| **at > end + 0.5 * scenario.timing.step) {
-        let remedy = format!("write seconds up to its end, {end}, or make the `duration` longer");
-        return Err(map.error("at", format!("{at} s is after the run"), remedy));
+    for at in &figure.at {
+        within_run(&map, "at", *at, &scenario.timing)?;
     }
     let ranks: Vec<String> = scenario.seats().iter().map(|seat| format!("r{}", seat.rank)).collect();
     let cases: Vec<&str> = scenario.cases().into_iter().map(|(name, _)| name).collect();
