@@ -9,14 +9,20 @@ from pathlib import Path
 # Where hosts run and how their nodes reach one another: `dds`, all on one network; `zenoh`, base station and robots in two
 # networks, which a router alone joins; `radio`, all but the bridge on one host, by Zenoh through a router on either.
 BASE, GATE, RADIO, ZENOH = "base", "gate", "radio", "zenoh"
-# How the base station's router joins the radio's over a slow link (docs/hosts.md): little between its queues and the wire.
-SLOW = 'transport/link/tx/batch_size=600;connect/endpoints=["tcp/10.77.0.2:7447#so_sndbuf=1"]'
+# How the radio's router joins the base station's over a slow link (docs/hosts.md): little between the queues there and the wire.
+SLOW_LISTENS = (
+    "transport/link/tx/batch_size=600;transport/link/tx/queue/size/data=4;"
+    'listen/endpoints=["tcp/[::]:7447","tcp/[::]:7448#so_sndbuf=1"]'
+)
+SLOW_CONNECTS = 'connect/endpoints=["tcp/10.77.0.1:7448#so_rcvbuf=4096"]'
 INTERFACE = "eth0"
 # Of TCP on every host, as docs/hosts.md has it for Zenoh.
 SETTINGS = {
     "tcp_congestion_control": "reno", "tcp_rto_max_ms": 1000, "tcp_rto_min_us": 20000, "tcp_timestamps": 0, "tcp_frto": 0,
     "tcp_thin_linear_timeouts": 1,
 }
+# Where a round trip takes 0.2 s because the link is slow, what is on its way for 20 ms is not lost.
+SETTINGS_SLOW = SETTINGS | {"tcp_rto_min_us": 200000}
 
 
 class Hosts:
@@ -32,7 +38,7 @@ class Hosts:
                 ip("netns", "add", self.namespace(name))
                 ip("-n", self.namespace(name), "link", "set", "lo", "up")
                 # Older kernels do not know all.
-                for setting, value in SETTINGS.items():
+                for setting, value in (SETTINGS_SLOW if kind == RADIO else SETTINGS).items():
                     write = f"f=/proc/sys/net/ipv4/{setting}; [ ! -e $f ] || echo {value} > $f"
                     subprocess.run([*self.command(name), "sh", "-c", write], check=True)
             if kind != ZENOH:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import yaml
 
-from hosts import BASE, GATE, RADIO, SLOW, ZENOH, Hosts
+from hosts import BASE, GATE, RADIO, SLOW_CONNECTS, SLOW_LISTENS, ZENOH, Hosts
 
 ROOT = Path(__file__).resolve().parents[2]
 # Nothing that a run waits for takes longer, s.
@@ -27,8 +27,6 @@ IMAGES, PICTURE = "/side/image_raw", (64, 48)
 APART = "bed"
 # Where a Zenoh router listens.
 ROUTER = 7447
-# s, until two routers that have a connection know each other.
-ACQUAINTED = 1.0
 # Topics of what robots report.
 REPORTS = r"/robot\d/(link|battery_state|wheel_odom|range_\d)"
 ROBOTS = ["robot1", "robot2", "robot3", "robot4"]
@@ -74,12 +72,6 @@ def listens(pid: int, port: int) -> bool:
     return any(f":{port:04X} " in table for table in tables)
 
 
-def joins(pid: int, port: int) -> bool:
-    """Whether somebody in the network of this process has a connection to such a port elsewhere."""
-    table = Path(f"/proc/{pid}/net/tcp").read_text(encoding="ascii").splitlines()[1:]
-    return any(f":{port:04X}" in line.split()[2] and line.split()[3] == "01" for line in table)
-
-
 def wait_for(holds: Callable[[], bool]) -> None:
     """Until it holds."""
     deadline = time.monotonic() + PATIENCE
@@ -121,14 +113,8 @@ class Launched:
         if self.hosts and self.hosts.kind == ZENOH:
             self.launch(GATE, "router")
         if self.hosts and self.hosts.kind == RADIO:
-            far = self.named["far router"] = self.start(RADIO, "trench", "router")
-            # A router that finds nobody tries again later and later.
-            wait_for(lambda: listens(far.pid, ROUTER))
-            near = self.named["near router"] = self.start(BASE, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW})
-            wait_for(lambda: joins(near.pid, ROUTER))
-            # Routers are there before the nodes, and know each other: what is declared while they still get to know each other may
-            # stay unknown to the other one (docs/hosts.md).
-            time.sleep(ACQUAINTED)
+            near = self.named["near router"] = self.start(BASE, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW_LISTENS})
+            wait_for(lambda: listens(near.pid, ROUTER))
         bed = [*run.get("bed", []), *(fault["bed"] for fault in run["faults"] if "bed" in fault)]
         faults = self.folder / "faults.yaml"
         faults.write_text(yaml.safe_dump({"faults": bed}))
@@ -163,6 +149,9 @@ class Launched:
             arguments |= {"testbed": "false", "poses": POSES}
         self.launch(BASE, run["launch"], **arguments)
         if self.hosts and self.hosts.kind == RADIO:
+            # Whoever comes late, when hundreds of things are declared already, hears of all of them.
+            far = self.named["far router"] = self.start(RADIO, "trench", "router", variables={"ZENOH_CONFIG_OVERRIDE": SLOW_CONNECTS})
+            wait_for(lambda: listens(far.pid, ROUTER))
             self.launch(
                 RADIO, "bridge_host", robots=f"[{', '.join(ROBOTS)}]", port=str(self.folder / "plug"), read_best_effort='["*"]'
             )

@@ -92,11 +92,11 @@ impl Pair {
         })
     }
 
-    /// On one bridge, with a Zenoh router on each host, of which one knows the other by `link`.
-    fn with_routers(number: u16, link: &str) -> Option<Self> {
+    /// On one bridge, with a Zenoh router on each host, set up by these assignments.
+    fn with_routers(number: u16, western: &str, eastern: &str) -> Option<Self> {
         let mut pair = Self::on_a_bridge(number)?;
         pair.rmw = "rmw_zenoh_cpp";
-        for (host, overrides) in [(&pair.east, ""), (&pair.west, link)] {
+        for (host, overrides) in [(&pair.west, western), (&pair.east, eastern)] {
             let mut router = host.move_to(&pair.island.command("router", ""));
             router.env("ZENOH_CONFIG_OVERRIDE", overrides);
             let router = Island::run(router);

@@ -9,8 +9,10 @@ use std::process::Command;
 /// the bridge and the air 60.
 const COMMAND: u64 = 145_000;
 
-/// What a Zenoh router needs on a slow link: little lies between its queues, in which what is urgent goes first, and the wire.
-const SLOW: &str = "transport/link/tx/batch_size=600;connect/endpoints=[\"tcp/10.77.0.2:7447#so_sndbuf=1\"]";
+/// What Zenoh routers need on a slow link: little lies between the queues of who sends, in which what is urgent goes first, and the
+/// wire. Who sends listens: its sockets are then served by threads that never wait for them.
+const LISTENS: &str = "transport/link/tx/batch_size=600;transport/link/tx/queue/size/data=4;listen/endpoints=[\"tcp/[::]:7447\",\"tcp/[::]:7448#so_sndbuf=1\"]";
+const CONNECTS: &str = "connect/endpoints=[\"tcp/10.77.0.1:7448#so_rcvbuf=4096\"]";
 
 /// 99 of 100 messages are younger, us.
 fn p99(said: &str) -> u64 {
@@ -73,7 +75,7 @@ fn live_over_dds_images_let_commands_pass_at_the_host_s_own_interface() {
 /// Between the routers of two hosts all goes through one connection.
 #[test]
 fn live_over_zenoh_images_let_commands_pass_between_routers() {
-    let Some(pair) = Pair::with_routers(46, SLOW) else { return };
+    let Some(pair) = Pair::with_routers(46, LISTENS, CONNECTS) else { return };
     slow_down_the_way(&pair);
     commands_are_young_beside_images(&pair, "100000.0");
 }
