@@ -15,7 +15,7 @@ use trench_formation::hull::{ApparentObstacle, Obstacle};
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::{
     BODY_RADIUS, CAPABILITY, ChainScenario, Encroaching, Standard, Verdict, judge, random_team,
-    random_team_among_concave_obstacles,
+    random_team_among_concave_obstacles, random_team_on_other_segments,
 };
 use trench_formation::trench::Hyperbolic;
 
@@ -67,6 +67,11 @@ fn verdict_among_concave(seed: u64) -> Option<Verdict> {
     random_team_among_concave_obstacles(seed).map(|scenario| judge(scenario, &STANDARD).unwrap())
 }
 
+/// The same on closed segments, graphs of expressions and queues with an open end.
+fn verdict_on_others(seed: u64) -> Option<Verdict> {
+    random_team_on_other_segments(seed).map(|scenario| judge(scenario, &STANDARD).unwrap())
+}
+
 /// Verdicts by seed, on all processors.
 fn verdicts(seeds: &[u64], verdict: fn(u64) -> Option<Verdict>) -> BTreeMap<u64, Option<Verdict>> {
     let (next, found) = (AtomicU64::new(0), Mutex::new(BTreeMap::new()));
@@ -104,6 +109,11 @@ fn random_teams_conform_and_never_collide() {
 #[test]
 fn random_teams_among_concave_obstacles_conform_and_never_collide() {
     conform_and_never_collide(verdict_among_concave, CONFORMING);
+}
+
+#[test]
+fn random_teams_on_other_segments_conform_and_never_collide() {
+    conform_and_never_collide(verdict_on_others, CONFORMING);
 }
 
 fn conform_and_never_collide(verdict: fn(u64) -> Option<Verdict>, conforming: f64) {

@@ -38,7 +38,9 @@ pub use observe::Outcome;
 pub use queue_team::{
     BrokenLink, QueueChange, QueueEvent, QueueRobotScenario, QueueScenario, QueueTeam, Quitting, Recovery,
 };
-pub use random::{BODY_RADIUS, CAPABILITY, random_team, random_team_among_concave_obstacles};
+pub use random::{
+    BODY_RADIUS, CAPABILITY, random_team, random_team_among_concave_obstacles, random_team_on_other_segments,
+};
 pub use regulation::Regulation;
 pub use scenario::{ChainScenario, Options, ScenarioError};
 pub use sight::Sight;

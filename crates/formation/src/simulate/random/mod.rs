@@ -2,17 +2,19 @@
 mod chance;
 mod concave;
 mod obstacles;
+mod other;
 mod segment;
 mod starts;
 
 use self::chance::Chance;
 use self::obstacles::{Boundary, Field};
+use self::other::random_other_segment;
 use self::segment::random_segment;
 use self::starts::random_starts;
 use super::{Carriage, ChainScenario, Encroaching, Options, Remedies};
 use crate::Vector2;
 use crate::avoidance::WatchSettings;
-use crate::curve::{Curve, Placed};
+use crate::curve::{Curve, CurveShape, Placed};
 use crate::kinematics::PointState;
 use crate::laws::{Capability, NearestAttraction};
 use crate::safety::Stopping;
@@ -34,19 +36,32 @@ const CLEARANCE: f64 = 1.0;
 /// obstacles are at least two clearances, along the whole way of those that move; no robot begins within its stopping distance of a
 /// repulsive zone. Nothing where no place was found for the robots. Teams may be infeasible: see [`judge`](super::judge).
 pub fn random_team(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
-    team(seed, false)
+    team(seed, false, common)
+}
+
+/// As [`random_team`], on other segments: a circle, an ellipse, the graph of an expression, a line or a polyline with an open end.
+pub fn random_team_on_other_segments(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
+    team(seed, false, random_other_segment)
 }
 
 /// As [`random_team`], but most obstacles are concave: L, U and crescents made of walls. Gaps are those between their hulls; robots may
 /// begin in their mouths, within the hulls, as far from the walls as others from obstacles.
 pub fn random_team_among_concave_obstacles(seed: u64) -> Option<ChainScenario<Hyperbolic>> {
-    team(seed, true)
+    team(seed, true, common)
 }
 
-fn team(seed: u64, concave: bool) -> Option<ChainScenario<Hyperbolic>> {
+/// A segment for so many robots, and whether its last end is open.
+type Segments = fn(&mut Chance, usize) -> Option<(CurveShape, bool)>;
+
+fn common(chance: &mut Chance, count: usize) -> Option<(CurveShape, bool)> {
+    Some((random_segment(chance, count), false))
+}
+
+fn team(seed: u64, concave: bool, segments: Segments) -> Option<ChainScenario<Hyperbolic>> {
     let mut chance = Chance(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let count = 2 + chance.below(19) as usize;
-    let segment = Curve::new(&random_segment(&mut chance, count), false, false).ok()?;
+    let (shape, open) = segments(&mut chance, count)?;
+    let segment = Curve::new(&shape, false, open).ok()?;
     let field = Field::random(&mut chance, concave);
     let placed = Placed::new(&segment, Isometry2::identity());
     let team_goal = free_point(&placed, &field);
