@@ -4,7 +4,12 @@ use super::configuration;
 use crate::signals::Signals;
 use rustdds::mio1::{Events, Poll, Token};
 use std::io;
+use std::time::Duration;
 use zenoh::Wait;
+use zenoh::internal::runtime::ZRuntime;
+
+/// How often somebody is woken to watch connections.
+const WATCH: Duration = Duration::from_millis(50);
 
 /// Why there is no router.
 #[derive(Debug, thiserror::Error)]
@@ -18,6 +23,15 @@ pub enum RouterError {
     /// The operating system refuses something.
     #[error("cannot wait for signals: {0}")]
     System(#[from] io::Error),
+}
+
+/// Sees to it that somebody watches the router's connections. Of the threads that open connections and take them (Zenoh 1.10 calls them net and acc)
+/// one watches all that were made there; where it is the one that tells another router of everything that is declared, it waits for room in
+/// a queue, which comes once a connection takes more, which nobody sees meanwhile: for 5 s, after which what was to be told is lost. Whoever
+/// is woken for a moment finds nobody watching, and watches (there must be more than one thread of the kind: `trench router` asks for them).
+fn watch() {
+    drop(ZRuntime::Net.spawn(async {}));
+    drop(ZRuntime::Acceptor.spawn(async {}));
 }
 
 /// Runs a router as rmw_zenoh's `rmw_zenohd` does (ZENOH_ROUTER_CONFIG_URI, ZENOH_CONFIG_OVERRIDE) until SIGINT or SIGTERM.
@@ -35,10 +49,11 @@ pub fn route(ready: impl FnOnce(&str, &[String])) -> Result<(), RouterError> {
     ready(&router.zid().to_string(), &locators);
     let mut events = Events::with_capacity(1);
     while events.is_empty() {
-        match poll.poll(&mut events, None) {
+        match poll.poll(&mut events, Some(WATCH)) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             other => other?,
         }
+        watch();
     }
     // What remains to be said at the end is said or never will be.
     let _closed = router.close().wait();
