@@ -1,6 +1,5 @@
 //! Transits of robots' nearest points along a run (Definition 7.2.1).
 
-use crate::robots::Robots;
 use crate::summary::{TransitSummary, Transits};
 use crate::{Scenario, Task};
 use trench_formation::Vector2;
@@ -40,17 +39,15 @@ impl Watch {
         })
     }
 
-    /// Looks at the robots of the chain, which are the first, at `time` (s); the others of the scenario have no segment.
-    pub(crate) fn look(&mut self, robots: &(impl Robots + ?Sized), time: f64) {
-        let placed = Placed::new(&self.segment, self.carriage.at(time).0);
-        let apart_squared = self.apart * self.apart;
-        for (index, (last, found)) in self.places.iter_mut().zip(&mut self.found).enumerate() {
-            let place = placed.to_curve(robots.position(index));
-            if (place - *last).norm_squared() >= apart_squared {
-                found.add(transit(&placed, *last, place, self.apart), time);
-                *last = place;
-            }
-        }
+    /// The segment at `time` (s), to look at robots then.
+    pub(crate) fn at(&mut self, time: f64) -> Look<'_> {
+        let Self { segment, carriage, apart, places, found } = self;
+        Look { placed: Placed::new(segment, carriage.at(time).0), apart: *apart, places, found, time }
+    }
+
+    /// The same of a segment that moves.
+    pub(crate) fn moving(&mut self, time: f64) -> Option<Look<'_>> {
+        (!self.carriage.is_parked()).then(|| self.at(time))
     }
 
     /// Of a robot that is at a position (m, frame `map`) at `time` (s), the end.
@@ -59,6 +56,33 @@ impl Watch {
         let (last, mut found) = (*self.places.get(index)?, self.found.get(index)?.clone());
         found.add(transit(&placed, last, placed.to_curve(position), self.apart), time);
         Some(found)
+    }
+}
+
+/// A look at robots at one time, s.
+pub(crate) struct Look<'a> {
+    placed: Placed<'a>,
+    apart: f64,
+    places: &'a mut [Vector2<f64>],
+    found: &'a mut [Transits],
+    time: f64,
+}
+
+impl Look<'_> {
+    /// Of the robot at an index, which is at a position (m, frame `map`). As far as it may go in the segment's frame until it has to be
+    /// looked at again, m: without end where it is not of the chain, whose robots are the first of a scenario.
+    pub(crate) fn look(&mut self, index: usize, position: Vector2<f64>) -> f64 {
+        let Some((last, found)) = self.places.get_mut(index).zip(self.found.get_mut(index)) else {
+            return f64::INFINITY;
+        };
+        let place = self.placed.to_curve(position);
+        let squared = (place - *last).norm_squared();
+        if squared >= self.apart * self.apart {
+            found.add(transit(&self.placed, *last, place, self.apart), self.time);
+            *last = place;
+            return self.apart;
+        }
+        self.apart - squared.sqrt()
     }
 }
 

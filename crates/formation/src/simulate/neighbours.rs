@@ -42,7 +42,7 @@ pub struct Neighbours {
 impl Neighbours {
     /// Makes sure that the lists hold whoever is within `range` (m) of each other now; whether they are made anew. `obstacles` rest, and are
     /// the same as before unless all was forgotten.
-    pub fn update(&mut self, range: f64, robots: &[PointState], obstacles: &[ApparentObstacle]) -> bool {
+    pub(super) fn update(&mut self, range: f64, robots: &[PointState], obstacles: &[ApparentObstacle]) -> bool {
         let same = self.range == range && self.rooms.len() == robots.len();
         let is_known = same && self.look_for_astray(robots);
         let made = !is_known || self.looks > self.patience * robots.len();
