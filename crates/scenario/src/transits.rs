@@ -3,7 +3,7 @@
 use crate::summary::{TransitSummary, Transits};
 use crate::{Scenario, Task};
 use trench_formation::Vector2;
-use trench_formation::curve::{Curve, CurveShape, Placed, Transit};
+use trench_formation::curve::{Curve, CurveShape, Placed, Transit, Warm};
 use trench_formation::simulate::Carriage;
 
 /// Transits that are told one by one, of a robot.
@@ -17,9 +17,23 @@ pub(crate) struct Watch {
     carriage: Carriage,
     /// Transit points are farther from each other than this, m: the tolerance within which robots conform.
     apart: f64,
-    /// Where each robot of the chain was looked at, in the segment's frame, m.
-    places: Vec<Vector2<f64>>,
+    /// Where each robot of the chain was looked at.
+    places: Vec<Place>,
     found: Vec<Transits>,
+}
+
+/// A place in the segment's frame and the nearest point of the segment, m, and what that tells of the next.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    at: Vector2<f64>,
+    foot: Vector2<f64>,
+    warm: Warm,
+}
+
+impl Place {
+    fn new(at: Vector2<f64>, segment: &Curve, mut warm: Warm) -> Self {
+        Self { at, foot: segment.nearest_again(at, &mut warm).point, warm }
+    }
 }
 
 impl Watch {
@@ -30,8 +44,9 @@ impl Watch {
             return None;
         }
         let placed = Placed::new(&chain.segment, chain.carriage.at(0.0).0);
+        let first = |at: Vector2<f64>| Place::new(at, &chain.segment, Warm::default());
         Some(Self {
-            places: chain.robots.iter().map(|robot| placed.to_curve(robot.position)).collect(),
+            places: chain.robots.iter().map(|robot| first(placed.to_curve(robot.position))).collect(),
             found: vec![Transits::default(); chain.robots.len()],
             segment: chain.segment.clone(),
             carriage: chain.carriage,
@@ -54,7 +69,8 @@ impl Watch {
     pub(crate) fn of(&self, index: usize, position: Vector2<f64>, time: f64) -> Option<Transits> {
         let placed = Placed::new(&self.segment, self.carriage.at(time).0);
         let (last, mut found) = (*self.places.get(index)?, self.found.get(index)?.clone());
-        found.add(transit(&placed, last, placed.to_curve(position), self.apart), time);
+        let place = Place::new(placed.to_curve(position), &self.segment, last.warm);
+        found.add(transit(&placed, &last, &place, self.apart), time);
         Some(found)
     }
 }
@@ -63,7 +79,7 @@ impl Watch {
 pub(crate) struct Look<'a> {
     placed: Placed<'a>,
     apart: f64,
-    places: &'a mut [Vector2<f64>],
+    places: &'a mut [Place],
     found: &'a mut [Transits],
     time: f64,
 }
@@ -76,9 +92,10 @@ impl Look<'_> {
             return f64::INFINITY;
         };
         let place = self.placed.to_curve(position);
-        let squared = (place - *last).norm_squared();
+        let squared = (place - last.at).norm_squared();
         if squared >= self.apart * self.apart {
-            found.add(transit(&self.placed, *last, place, self.apart), self.time);
+            let place = Place::new(place, self.placed.curve(), last.warm);
+            found.add(transit(&self.placed, last, &place, self.apart), self.time);
             *last = place;
             return self.apart;
         }
@@ -87,13 +104,12 @@ impl Look<'_> {
 }
 
 /// The first transit on a way in the segment's frame, told in `map`.
-fn transit(placed: &Placed<'_>, from: Vector2<f64>, to: Vector2<f64>, apart: f64) -> Option<Transit> {
-    let segment = placed.curve();
+fn transit(placed: &Placed<'_>, from: &Place, to: &Place, apart: f64) -> Option<Transit> {
     // Mostly the nearest point has hardly moved.
-    if (segment.nearest(from).point - segment.nearest(to).point).norm() <= apart {
+    if (from.foot - to.foot).norm() <= apart {
         return None;
     }
-    let found = segment.transit(from, to, apart)?;
+    let found = placed.curve().transit(from.at, to.at, apart)?;
     Some(Transit { place: placed.point_to_map(found.place), ..found })
 }
 
