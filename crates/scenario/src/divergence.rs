@@ -28,15 +28,15 @@ impl Divergence {
         Self { limit: FAR * farthest, first: None }
     }
 
-    /// Looks at a robot that is at `position` (m) at `time` (s).
-    #[inline]
-    pub(crate) fn look(&mut self, seat: &Seat, position: Vector2<f64>, time: f64) {
+    /// Looks at a robot that is at `position` (m) at `time` (s). As far as it may go until it has to be looked at again, m.
+    pub(crate) fn look(&mut self, seat: &Seat, position: Vector2<f64>, time: f64) -> f64 {
         // Not below either is what is no number.
         let is_within = position.norm_squared() < self.limit * self.limit;
         if !is_within && self.first.is_none() {
             let (robot, distance) = (seat.name.clone(), position.norm());
             self.first = Some(DivergedSummary { time, robot, distance, limit: self.limit, remedy: REMEDY });
         }
+        self.limit - position.norm()
     }
 
     pub(crate) fn first(&self) -> Option<&DivergedSummary> {

@@ -1,6 +1,5 @@
 //! How near the robots of a team come to obstacles, without looking at all of these for every robot at every step.
 
-use std::ops::Range;
 use trench_formation::Vector2;
 use trench_formation::hull::Obstacle;
 use trench_formation::kinematics::PointState;
@@ -33,9 +32,10 @@ impl Gaps {
         &self.least
     }
 
-    /// Takes note of the obstacles as they are now.
-    pub(crate) fn prepare(&mut self, real: &[Obstacle], team: &[PointState]) {
-        if self.known != real || self.looked_at.len() != team.len() {
+    /// Takes note of the obstacles as they are now; whether they are others, and all robots have to be looked at.
+    pub(crate) fn prepare(&mut self, real: &[Obstacle], team: &[PointState]) -> bool {
+        let same = self.known == real && self.looked_at.len() == team.len();
+        if !same {
             self.known.clear();
             self.known.extend_from_slice(real);
             self.least.resize(real.len(), (0, f64::INFINITY));
@@ -45,21 +45,23 @@ impl Gaps {
             self.looked_at.clear();
             self.looked_at.extend(team.iter().map(|robot| LookedAt { position: robot.position, room: -1.0 }));
         }
+        !same
     }
 
-    /// Looks at some robots of the team that was prepared.
-    #[inline]
-    pub(crate) fn take(&mut self, team: &[PointState], some: Range<usize>) {
+    /// Looks at a robot of the team that was prepared, if that may say something new. As far as it may go until then, m.
+    pub(crate) fn look(&mut self, index: usize, position: Vector2<f64>) -> f64 {
         if self.known.is_empty() {
-            return;
+            return f64::INFINITY;
         }
-        for (robot, looked_at) in team[some.clone()].iter().zip(&mut self.looked_at[some]) {
-            let LookedAt { position, room } = *looked_at;
-            // Gaps have fallen by no more than the way since then, and the least has not risen.
-            if room <= 0.0 || (robot.position - position).norm_squared() >= room * room {
-                *looked_at = look(&mut self.least, &self.known, robot.position);
-            }
+        let LookedAt { position: before, room } = self.looked_at[index];
+        // Gaps have fallen by no more than the way since then, and the least has not risen.
+        let left = room - (position - before).norm();
+        if left > 0.0 {
+            return left;
         }
+        let looked_at = look(&mut self.least, &self.known, position);
+        self.looked_at[index] = looked_at;
+        looked_at.room
     }
 }
 
@@ -102,8 +104,9 @@ mod tests {
             let (mut gaps, mut least) = (Gaps::default(), vec![f64::INFINITY; at.len()]);
             for step in 0..40 {
                 gaps.prepare(&real, &team);
-                gaps.take(&team, 0..team.len() / 2);
-                gaps.take(&team, team.len() / 2..team.len());
+                for (index, robot) in team.iter().enumerate() {
+                    gaps.look(index, robot.position);
+                }
                 for (obstacle, least) in real.iter().zip(&mut least) {
                     for robot in &team {
                         *least = least.min(obstacle.shape.outline().approach(robot.position).gap);

@@ -6,6 +6,7 @@
 mod closest;
 mod course;
 mod divergence;
+mod four;
 mod gaps;
 mod launch;
 mod law;
@@ -13,9 +14,11 @@ mod measures;
 mod neutral;
 mod read;
 mod robots;
+mod room;
 mod scenario;
 mod simulation;
 mod summary;
+mod team;
 mod transits;
 
 pub use launch::{Argument, Launch};

@@ -1,14 +1,13 @@
 //! How a run went, looked at after every step.
 
-use crate::closest::Closest;
-use crate::course::Course;
 use crate::divergence::Divergence;
-use crate::gaps::Gaps;
+use crate::four::Now;
 use crate::neutral::outside;
 use crate::robots::Robots;
 use crate::summary::{
     CaseSummary, ChangeSummary, DivergedSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary, WheelSummary,
 };
+use crate::team::{Among, Team};
 use crate::transits::Watch;
 use crate::{ChosenLaw, Sample, Scenario, Seat, Simulation, Task};
 use std::ops::Range;
@@ -16,10 +15,7 @@ use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::{QueueChange, QueueEvent, WheelEffort};
 use trench_formation::stability::final_misalignment;
-use trench_formation::zoning::{Zone, Zoning};
-
-/// Robots that are looked at in one go, for all that is measured of them: so many stay in the nearest cache.
-const BLOCK: usize = 256;
+use trench_formation::zoning::Zoning;
 
 /// What is kept between steps.
 #[derive(Debug, Clone)]
@@ -27,8 +23,6 @@ pub struct Measures {
     seats: Vec<Seat>,
     /// s.
     time: f64,
-    /// By seat.
-    kept: Vec<Kept>,
     /// By case.
     teams: Vec<Team>,
     copies: Vec<PointState>,
@@ -39,53 +33,19 @@ pub struct Measures {
     wheels: Vec<Option<WheelSummary>>,
 }
 
-/// Of a robot.
-#[derive(Debug, Clone, Copy)]
-struct Kept {
-    /// Index of its leader.
-    leader: Option<u32>,
-    /// When it was last away from what draws it, s; negative: never.
-    last_away: f64,
-    /// When something last drew it, s; negative: never.
-    last_drawn: f64,
-    /// Least and greatest, m.
-    leader_range: [f64; 2],
-    lyapunov: Course,
-}
-
-/// Of the robots of a case, which stand together.
-#[derive(Debug, Clone)]
-struct Team {
-    seats: Range<usize>,
-    closest: Closest,
-    gaps: Gaps,
-    /// When a robot was last outside its leader's neutral zone, s; negative: never.
-    last_outside: f64,
-    /// s.
-    in_zone_1: f64,
-}
-
 impl Measures {
     /// Before the first step.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let seats = scenario.seats();
-        let kept = |seat: &Seat| Kept {
-            leader: seat.leader.map(|leader| leader as u32),
-            last_away: -1.0,
-            last_drawn: -1.0,
-            leader_range: [f64::INFINITY, 0.0],
-            lyapunov: Course::new(),
-        };
-        let mut teams: Vec<Team> = scenario.cases().iter().map(|_| Team::new()).collect();
+        let mut ranges: Vec<Range<usize>> = scenario.cases().iter().map(|_| 0..0).collect();
         for (index, seat) in seats.iter().enumerate() {
-            let team = &mut teams[seat.case].seats;
-            *team = if team.end == 0 { index } else { team.start }..index + 1;
+            let range = &mut ranges[seat.case];
+            *range = if range.end == 0 { index } else { range.start }..index + 1;
         }
         Self {
             time: 0.0,
-            kept: seats.iter().map(kept).collect(),
-            teams,
+            teams: ranges.into_iter().map(|range| Team::new(&seats, range)).collect(),
             copies: Vec::new(),
             changes: Vec::new(),
             transits: Watch::new(scenario),
@@ -110,40 +70,31 @@ impl Measures {
     }
 
     fn look(&mut self, scenario: &Scenario, simulation: &Simulation, robots: &(impl Robots + ?Sized)) {
-        let (time, zoning, obstacles) = (simulation.time(), scenario.zoning(), simulation.obstacles());
-        self.time = time;
+        let zoning = scenario.zoning();
+        let now = Now {
+            time: simulation.time(),
+            before: self.time,
+            step: scenario.timing.step,
+            tolerance: scenario.tolerance,
+            neutral: Now::neutral(zoning.map(Zoning::radii)),
+        };
+        self.time = now.time;
         for change in simulation.changes().iter().skip(self.changes.len()) {
             self.changes.push(told(change, &self.seats));
             // Another leader, or none, is another V.
-            if let Some(kept) = self.kept.get_mut(change.robot) {
-                kept.lyapunov.begin_anew();
+            for team in self.teams.iter_mut().filter(|team| team.seats().contains(&change.robot)) {
+                team.begin_anew(change.robot - team.seats().start);
             }
         }
-        for Team { seats, closest, gaps, last_outside, in_zone_1 } in &mut self.teams {
-            let points = robots.points(seats.start, seats.end, &mut self.copies);
-            let has_pairs = closest.prepare(points, zoning);
-            gaps.prepare(obstacles.unwrap_or_default(), points);
-            for first in seats.clone().step_by(BLOCK) {
-                let block = first..seats.end.min(first + BLOCK);
-                for (index, kept) in block.clone().zip(&mut self.kept[block.clone()]) {
-                    self.divergence.look(&self.seats[index], robots.position(index), time);
-                    let outside = kept.look(robots, index, (time, scenario.timing.step, scenario.tolerance), zoning);
-                    *last_outside = if outside { time } else { *last_outside };
-                }
-                let block = block.start - seats.start..block.end - seats.start;
-                if has_pairs {
-                    closest.take(points, block.clone(), zoning, || *in_zone_1 += scenario.timing.step);
-                }
-                gaps.take(points, block);
-            }
-        }
-        if let Some(watch) = &mut self.transits {
-            watch.look(robots, time);
+        let among = Among { seats: &self.seats, zoning, obstacles: simulation.obstacles().unwrap_or_default() };
+        let Self { teams, divergence, transits, copies, .. } = self;
+        for team in teams {
+            team.look(robots, (&among, &now), divergence, transits.as_mut(), copies);
         }
         for (case, team) in self.teams.iter().enumerate() {
             for (index, effort) in simulation.wheel_efforts(case).iter().enumerate() {
                 let WheelEffort { greatest, saturated } = *effort;
-                self.wheels[team.seats.start + index] = Some(WheelSummary { greatest_torque: greatest, saturated });
+                self.wheels[team.seats().start + index] = Some(WheelSummary { greatest_torque: greatest, saturated });
             }
         }
     }
@@ -180,21 +131,23 @@ impl Measures {
         let robots: Vec<RobotSummary> = rows
             .map(|(index, (seat, sample))| {
                 let is_unicycle = matches!(scenario.task, Task::Regulating(_));
+                let (team, place) = (&self.teams[case], index - self.teams[case].seats().start);
+                let [away, drawn] = team.last(place, self.time);
                 let leader = seat.leader.map(|leader| (samples[leader].position - sample.position).norm());
                 RobotSummary {
                     name: seat.name.clone(),
                     position: pair(sample.position),
                     error: sample.deviation,
-                    conforms_after: since(self.kept[index].last_away),
-                    no_fragment_since: since(self.kept[index].last_drawn),
+                    conforms_after: since(away),
+                    no_fragment_since: since(drawn),
                     leader_distance: leader,
-                    leader_distance_range: seat.leader.map(|_| self.kept[index].leader_range),
+                    leader_distance_range: seat.leader.map(|_| team.leader_range(place)),
                     misalignment: is_unicycle.then_some(sample.misalignment),
                     resting_misalignment: resting(scenario, case, seat.rank),
                     effort: is_unicycle.then_some(sample.effort),
                     transits: self.transits.as_ref().and_then(|watch| watch.of(index, sample.position, self.time)),
                     wheels: self.wheels[index],
-                    lyapunov: sample.lyapunov.map(|[last, _]| self.kept[index].lyapunov.summary(last)),
+                    lyapunov: sample.lyapunov.map(|[last, _]| team.lyapunov(place, last, scenario.timing.step)),
                 }
             })
             .collect();
@@ -229,41 +182,6 @@ impl Measures {
             outside(row, (self.seats.get(leader)?, samples.get(leader)?), zoning, scenario.tolerance)
         });
         led.collect()
-    }
-}
-
-impl Kept {
-    /// Looks at the robot at `time` (s), a `step` (s) after the last time, which conforms within `tolerance` (m); whether it is outside its leader's neutral zone.
-    #[inline]
-    fn look(
-        &mut self,
-        robots: &(impl Robots + ?Sized),
-        index: usize,
-        (time, step, tolerance): (f64, f64, f64),
-        zoning: Option<&Zoning>,
-    ) -> bool {
-        let deviation = robots.deviation(index);
-        if deviation.is_nan() || deviation > tolerance {
-            self.last_away = time;
-        }
-        if deviation.is_finite() {
-            self.last_drawn = time;
-        }
-        if let Some(moment) = robots.lyapunov(index) {
-            self.lyapunov.take(moment, step, robots.is_drawn(index));
-        } else {
-            self.lyapunov.begin_anew();
-        }
-        let Some(leader) = self.leader else { return false };
-        let distance = (robots.position(leader as usize) - robots.position(index)).norm();
-        self.leader_range = [self.leader_range[0].min(distance), self.leader_range[1].max(distance)];
-        zoning.is_some_and(|zoning| zoning.zone(distance) != Zone::Neutral)
-    }
-}
-
-impl Team {
-    fn new() -> Self {
-        Self { seats: 0..0, closest: Closest::default(), gaps: Gaps::default(), last_outside: -1.0, in_zone_1: 0.0 }
     }
 }
 

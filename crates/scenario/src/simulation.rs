@@ -193,16 +193,22 @@ impl Simulation {
     /// Looks at the robots of a chain of chapter 7 after every step, whether or not somebody asks for samples.
     fn follow(&mut self) -> Result<(), RunError> {
         let Running::Nearest(chain, _) = &self.running else { return Ok(()) };
-        for (index, (robot, moved)) in chain.robots().iter().zip(&mut self.moved).enumerate() {
-            let PointState { position, velocity } = *robot;
-            if !(position.x + position.y + velocity.x + velocity.y).is_finite() {
-                return Err(self.diverged(index));
-            }
-            if velocity.norm() > STANDS {
-                *moved = velocity;
+        let is_finite = |robot: &PointState| {
+            let PointState { position, velocity } = robot;
+            (position.x + position.y + velocity.x + velocity.y).is_finite()
+        };
+        let mut all_finite = true;
+        for (robot, moved) in chain.robots().iter().zip(&mut self.moved) {
+            all_finite &= is_finite(robot);
+            if robot.velocity.norm_squared() > STANDS_SQUARED {
+                *moved = robot.velocity;
             }
         }
-        Ok(())
+        if all_finite {
+            return Ok(());
+        }
+        let first = chain.robots().iter().position(|robot| !is_finite(robot));
+        first.map_or(Ok(()), |index| Err(self.diverged(index)))
     }
 
     fn diverged(&self, index: usize) -> RunError {
@@ -368,6 +374,9 @@ fn of_regulation(robot: &Regulation<ChosenLaw>) -> Sample {
 /// Below this speed a point has no heading, m/s.
 const STANDS: f64 = 1e-9;
 
+/// The greatest square of which the root is no more, m^2/s^2.
+const STANDS_SQUARED: f64 = 1.0000000000000003e-18;
+
 /// A hand, with the heading and the speeds of its body.
 fn of_body(hand: Sample, HilareState { pose, twist: Twist { v, omega } }: HilareState) -> Sample {
     Sample { heading: pose.theta, speed: v, turn_rate: omega, ..hand }
@@ -391,5 +400,15 @@ fn of_point(robot: PointState, steered: Option<Steered>, goal: Option<Vector2<f6
         effort: 0.0,
         lyapunov: steered.map(|steered| [steered.lyapunov, steered.lyapunov_rate]),
         power: 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_stands_is_known_by_the_square() {
+        assert!(STANDS_SQUARED.sqrt() <= STANDS && STANDS_SQUARED.next_up().sqrt() > STANDS);
     }
 }

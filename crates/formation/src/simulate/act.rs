@@ -100,7 +100,6 @@ impl<T: Trench> View<'_, T> {
         robots: &[PointState],
     ) -> Option<Abreast> {
         let (agents, robots) = (agents.try_into().ok()?, robots.try_into().ok()?);
-        let cut = self.scenario.potential.cut();
         let leader = |lane: usize| (first + lane).saturating_sub(1);
         let side = Side {
             time: self.time,
@@ -108,7 +107,7 @@ impl<T: Trench> View<'_, T> {
             leaders: core::array::from_fn(|lane| self.seen[leader(lane)]),
             deviations: core::array::from_fn(|lane| self.seen_deviations[leader(lane)]),
             alone: core::array::from_fn(|lane| {
-                first + lane > 0 && self.vicinity.is_alone(first + lane, cut) && self.links.hears(first + lane)
+                first + lane > 0 && self.vicinity.is_alone(first + lane) && self.links.hears(first + lane)
             }),
         };
         Agent::act_abreast(settings, agents, robots, &side, self.scenario.step)

@@ -25,6 +25,11 @@ impl Links {
         let far =
             |pair: &[PointState], reach: f64| (pair[0].position - pair[1].position).norm_squared() > reach * reach;
         self.now.clear();
+        // Mostly all hear: without asking one by one.
+        let parted = || robots.windows(2).fold(false, |parted, pair| parted | far(pair, reach));
+        if self.unheard.is_empty() && broken.is_empty() && !parted() {
+            return;
+        }
         for (pair, index) in robots.windows(2).zip(1..) {
             if far(pair, if self.hears(index) { reach } else { back }) || (!broken.is_empty() && is_broken(index)) {
                 self.now.push(index);

@@ -14,6 +14,7 @@ mod hilare_team;
 mod integrate;
 mod judge;
 mod links;
+mod marks;
 mod neighbours;
 mod observe;
 mod queue_team;
