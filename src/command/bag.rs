@@ -78,7 +78,7 @@ fn told(done: Result<(), impl Display>) -> ExitCode {
 
 fn recover(path: &Path, out: &Path) -> Result<(), BagError> {
     let bag = with_damage_told(BagReader::examine(path)?);
-    let mut writer = BagWriter::create(out, WriteOptions::default())?;
+    let mut writer = BagWriter::create(out, WriteOptions::reproducible())?;
     let copied = copy(&bag, &mut writer);
     // Also a copy that a full disk ended is finished: it is a bag.
     let count = writer.message_count();

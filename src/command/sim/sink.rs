@@ -19,7 +19,7 @@ pub(crate) struct Sink {
 impl Sink {
     /// With a bag in a folder that does not exist yet, or without.
     pub(crate) fn new(folder: Option<&Path>) -> Result<Self, BagError> {
-        let bag = folder.map(|folder| BagWriter::create(folder, WriteOptions::default())).transpose()?;
+        let bag = folder.map(|folder| BagWriter::create(folder, WriteOptions::reproducible())).transpose()?;
         Ok(Self { builder: RunBuilder::default(), bag, topics: BTreeMap::new(), error: None })
     }
 

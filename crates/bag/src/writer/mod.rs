@@ -19,8 +19,9 @@ use trench_core::Qos;
 pub struct WriteOptions {
     /// A chunk is closed when it holds this many bytes.
     pub chunk_bytes: u64,
-    /// ... or when its first message is this old: what a killed recorder can lose.
-    pub flush_after: Duration,
+    /// ... or when its first message is this old: what a killed recorder can lose. With nothing by its size alone, so that the same messages make the same
+    /// bytes however long they take to come.
+    pub flush_after: Option<Duration>,
     /// How chunks are compressed.
     pub compression: Compression,
     /// Recording stops when the disk has no more than this left, besides what the index needs.
@@ -32,12 +33,19 @@ pub struct WriteOptions {
     pub split_after: Option<Duration>,
 }
 
+impl WriteOptions {
+    /// For messages that come from a file or a simulation: the same ones make the same bytes.
+    pub fn reproducible() -> Self {
+        Self { flush_after: None, ..Self::default() }
+    }
+}
+
 impl Default for WriteOptions {
     fn default() -> Self {
         Self {
             chunk_bytes: 1 << 20,
             compression: Compression::Zstd,
-            flush_after: Duration::from_millis(500),
+            flush_after: Some(Duration::from_millis(500)),
             disk_reserve: 4 << 20,
             split_bytes: None,
             split_after: None,
@@ -165,11 +173,17 @@ impl BagWriter {
         if !self.part.write(topic, stamp, cdr)? {
             return Ok(()); // An id of another writer: there is nothing it could name here.
         }
-        let since = *self.pending_since.get_or_insert_with(Instant::now);
-        if self.part.pending_bytes >= self.options.chunk_bytes || since.elapsed() >= self.options.flush_after {
+        self.pending_since.get_or_insert_with(Instant::now);
+        if self.part.pending_bytes >= self.options.chunk_bytes || self.is_flush_due() {
             self.flush()?;
         }
         Ok(())
+    }
+
+    /// Whether the open chunk's first message is as old as it may be.
+    fn is_flush_due(&self) -> bool {
+        let old = |after| self.pending_since.is_some_and(|since| since.elapsed() >= after);
+        self.options.flush_after.is_some_and(old)
     }
 
     /// Whether a message belongs into the next file.
@@ -201,10 +215,7 @@ impl BagWriter {
     /// # Errors
     /// As [`BagWriter::write`].
     pub fn flush_if_due(&mut self) -> Result<(), BagError> {
-        match self.pending_since {
-            Some(since) if since.elapsed() >= self.options.flush_after => self.flush(),
-            _ => self.check_disk(0),
-        }
+        if self.is_flush_due() { self.flush() } else { self.check_disk(0) }
     }
 
     /// Closes the open chunk and hands it to the system: it survives the death of this process.

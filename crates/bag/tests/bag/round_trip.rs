@@ -80,11 +80,34 @@ fn a_killed_recorder_loses_only_its_open_chunk() {
 fn time_alone_closes_a_chunk() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("slow");
-    let options = WriteOptions { flush_after: std::time::Duration::ZERO, disk_reserve: 0, ..WriteOptions::default() };
+    let options =
+        WriteOptions { flush_after: Some(std::time::Duration::ZERO), disk_reserve: 0, ..WriteOptions::default() };
     let mut writer = BagWriter::create(&path, options).unwrap();
     let topic = writer.add_topic("/value", FLOAT, Qos::RELIABLE).unwrap();
     writer.write(topic, Stamp::default(), &float_cdr(1.0)).unwrap();
     assert_eq!(BagReader::open(&path).unwrap().message_count(), 1);
+}
+
+/// Of a simulation that the machine held up on its way.
+#[test]
+fn the_same_messages_make_the_same_bytes_however_long_they_take() {
+    let folder = tempfile::tempdir().unwrap();
+    let written = |place: &str, pause: std::time::Duration| {
+        // A file says its own name.
+        let path = folder.path().join(place).join("run");
+        let mut writer = BagWriter::create(&path, WriteOptions::reproducible()).unwrap();
+        let topic = writer.add_topic("/value", FLOAT, Qos::RELIABLE).unwrap();
+        for index in 0..3_u64 {
+            writer.write(topic, Stamp { log_time: index, publish_time: index, sequence: 0 }, &float_cdr(1.0)).unwrap();
+            writer.flush_if_due().unwrap();
+            std::thread::sleep(pause);
+        }
+        writer.finish().unwrap();
+        fs::read(mcap_file(&path)).unwrap()
+    };
+    let hasty = written("hasty", std::time::Duration::ZERO);
+    // Longer than what closes a chunk of a recorder.
+    assert!(hasty == written("slow", std::time::Duration::from_millis(600)));
 }
 
 #[test]
