@@ -101,3 +101,27 @@ fn a_wish_that_keeps_clear_is_passed_on() {
     let lines = [SAFETY.between(robot, other)];
     assert_eq!(SAFETY.admit(robot, wanted, &lines, core::iter::empty(), STEP), wanted);
 }
+
+/// Bodies that overlap, as where somebody put them down so, come apart where their laws want it, and no nearer whatever these want.
+#[test]
+fn bodies_that_overlap_may_part() {
+    for (wanted, parts) in [(2.0, true), (-2.0, false)] {
+        let mut robots = [-0.08, 0.08].map(|x| PointState::at_rest(Vector2::new(x, 0.0)));
+        let mut least = f64::INFINITY;
+        for step in 0..200 {
+            let seen = robots;
+            for (index, robot) in robots.iter_mut().enumerate() {
+                let way = Vector2::new(if index == 0 { -wanted } else { wanted }, 0.0);
+                let line = SAFETY.between(seen[index], seen[1 - index]);
+                let next = (robot.velocity + STEP * way).cap_magnitude(0.5);
+                let admitted = SAFETY.admit(*robot, (next - robot.velocity) / STEP, &[line], core::iter::empty(), STEP);
+                *robot = robot.advanced_semi_implicit(admitted, STEP);
+            }
+            least = least.min((robots[1].position - robots[0].position).norm());
+            if step == 99 && parts {
+                assert!((robots[1].position - robots[0].position).norm() > 0.2, "{robots:?}");
+            }
+        }
+        assert!(least >= 0.16 - 1e-9, "{least}");
+    }
+}

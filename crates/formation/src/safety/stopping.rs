@@ -124,9 +124,16 @@ impl Stopping {
         next = next.cap_magnitude(self.capability.speed);
         next = robot.velocity + (next - robot.velocity).cap_magnitude(most);
         let braked = robot.velocity - robot.velocity.cap_magnitude(most);
-        let keeps = |next: Vector2<f64>| {
-            lines.iter().all(|line| line.outward.dot(&next) <= self.admitted(robot.position, next, line, step) + 1e-12)
+        let keeps_to = |line: &Line, next: Vector2<f64>| {
+            line.outward.dot(&next) <= self.admitted(robot.position, next, line, step) + 1e-12
         };
+        // Braking keeps to all lines of bodies that were apart. Bodies that are not may part: what comes no farther across is no worse.
+        let across = |line: &Line, next: Vector2<f64>| {
+            line.outward.dot(&next) * (step + next.norm() / (2.0 * self.capability.acceleration))
+        };
+        let is_no_worse =
+            |line: &Line, next: Vector2<f64>| !keeps_to(line, braked) && across(line, next) <= across(line, braked);
+        let keeps = |next: Vector2<f64>| lines.iter().all(|line| keeps_to(line, next) || is_no_worse(line, next));
         let blend = |part: f64| braked + part * (next - braked);
         let part = [1.0, 0.75, 0.5, 0.25].into_iter().find(|part| keeps(blend(*part))).unwrap_or(0.0);
         (blend(part) - robot.velocity) / step

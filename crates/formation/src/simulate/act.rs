@@ -141,16 +141,18 @@ impl<T: Trench> View<'_, T> {
         let goal = self.scenario.team_goal.filter(|_| index == 0);
         around.goal = goal.map(|goal| around.motion.at(around.map_from_segment.transform_point(&goal.into()).coords));
         let hears = self.links.hears(index);
+        around.ahead = self.vicinity.ahead(self.seen, index, hears);
         if let Some((speed, goal)) = self.scenario.options.recovery.zip(self.scenario.team_goal).filter(|_| !hears) {
             let segment = Placed::new(&self.scenario.segment, around.map_from_segment);
-            around.goal = Some(towards_goal(&segment, &around.motion, self.seen[index].position, (goal, speed)));
+            let others = (around.ahead, self.scenario.zoning.radii().rho_hat);
+            around.goal =
+                Some(towards_goal(&segment, &around.motion, self.seen[index].position, (goal, speed), others));
         }
         around.leader = index
             .checked_sub(1)
             .filter(|_| hears)
             .map(|leader| Leader { state: self.seen[leader], deviation: self.seen_deviations[leader] });
         around.clear = self.vicinity.clear(index);
-        around.ahead = self.vicinity.ahead(self.seen, index);
         around.places = &self.seen_places[..index];
         around.behind = self.seen.len() - index - 1;
     }

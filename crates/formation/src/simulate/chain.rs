@@ -169,7 +169,7 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
         if found {
             self.vicinity.forget();
         }
-        self.vicinity.look(&self.scenario, &self.seen, (&self.real, &self.obstacles));
+        self.vicinity.look(&self.scenario, &self.seen, (&self.real, &self.obstacles), &self.links);
         let encroach = self.scenario.encroaching.robot_radius().is_some();
         if moves || found || encroach || !self.scenario.carriage.is_parked() {
             self.sense()?;

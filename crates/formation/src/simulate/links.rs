@@ -62,12 +62,14 @@ impl Links {
 }
 
 /// The goal point of a robot at `robot` (m) that goes to the segment and along it to `goal` (m, frame of the segment), at `speed` (m/s): where
-/// it is nearest to the segment, moving on.
+/// it is nearest to the segment, moving on as long as none of the robots `ahead` is on its way within `apart` (m): their repulsion is bounded, and who
+/// is drawn along would come through it.
 pub(super) fn towards_goal(
     segment: &Placed<'_>,
     motion: &RigidMotion,
     robot: Vector2<f64>,
     (goal, speed): (Vector2<f64>, f64),
+    (ahead, apart): (&[PointState], f64),
 ) -> GoalMotion {
     let (foot, curve) = (segment.nearest(robot), segment.curve());
     let mut left = curve.nearest(goal).arc_length - foot.arc_length;
@@ -75,7 +77,12 @@ pub(super) fn towards_goal(
         left -= curve.length() * libm::round(left / curve.length());
     }
     let still = motion.at(foot.point);
-    GoalMotion { velocity: still.velocity + speed * (left / SLOWING).clamp(-1.0, 1.0) * foot.tangent, ..still }
+    let on = speed * (left / SLOWING).clamp(-1.0, 1.0) * foot.tangent;
+    let is_before = |other: &PointState| {
+        let way = other.position - robot;
+        way.norm_squared() < apart * apart && way.dot(&on) > 0.0
+    };
+    if ahead.iter().any(is_before) { still } else { GoalMotion { velocity: still.velocity + on, ..still } }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What is near each robot at a tick: the robots ahead that may push it, and the lines of the safety filter.
 use super::ChainScenario;
+use super::links::Links;
 use super::marks::Marks;
 use super::neighbours::Neighbours;
 use crate::Vector2;
@@ -44,6 +45,7 @@ impl Vicinity {
         scenario: &ChainScenario<T>,
         seen: &[PointState],
         (real, apparent): (&[Obstacle], &[ApparentObstacle]),
+        links: &Links,
     ) {
         let reach = reach_of_potentials(scenario);
         let safety = scenario.options.safety.as_ref();
@@ -80,8 +82,9 @@ impl Vicinity {
             for other in neighbours.of(index) {
                 let at = *other as usize;
                 let distance_squared = (seen[at].position - robot.position).norm_squared();
-                // The leader of a robot is not among those ahead of it: it has a potential of its own.
-                if at + 1 < index && distance_squared < reach_squared {
+                // The leader of a robot is not among those ahead of it: it has a potential of its own, where it is heard.
+                let is_ahead = at + 1 < index || (at + 1 == index && !links.hears(index));
+                if is_ahead && distance_squared < reach_squared {
                     ahead.push(seen[at]);
                 }
                 if let Some(safety) = safety.filter(|_| distance_squared < range * range) {
@@ -123,11 +126,11 @@ impl Vicinity {
         }
     }
 
-    /// Robots ahead of the one at `index` besides its leader, by rank: those within reach, or all where reach has no bound.
+    /// Robots ahead of the one at `index`, by rank, without its leader if it `hears` that: those within reach, or all where reach has no bound.
     #[inline]
-    pub(super) fn ahead<'a>(&'a self, seen: &'a [PointState], index: usize) -> &'a [PointState] {
+    pub(super) fn ahead<'a>(&'a self, seen: &'a [PointState], index: usize, hears: bool) -> &'a [PointState] {
         if !(self.looked && self.bounded) {
-            return &seen[..index.saturating_sub(1)];
+            return &seen[..index.saturating_sub(usize::from(hears))];
         }
         self.near(index).map_or(&[], |[begin, end]| &self.ahead[begin.ahead as usize..end.ahead as usize])
     }

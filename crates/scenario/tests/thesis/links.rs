@@ -53,6 +53,15 @@ fn chains_of_chapter_7_have_links_too() {
     assert!(found.robots[1].leader_distance.unwrap() <= 10.0, "{found:?}");
 }
 
+/// A robot that does not hear its leader keeps clear of it as of everybody ahead: r2 goes to where r1 stands, and r4 to where r3 waits.
+#[test]
+fn who_is_not_heard_is_avoided() {
+    let scenario = scenario_with(FILE, &[("{robot: r4, from: 50.0, to: 60.0}", "{robot: r2, from: 50.0, to: 70.0}")]);
+    let case = run_scenario(&scenario, &[]).0.cases.remove(0);
+    assert_eq!(changes(&case), [("r2", "lost"), ("r2", "follows"), ("r2", "retargets"), ("r2", "follows")]);
+    assert!(case.closest_pair.unwrap() > 0.7 && case.in_zone_1 == 0.0, "{case:?}");
+}
+
 #[test]
 fn what_is_no_recovery() {
     let error = refusal(FILE, "{speed: 1.5}", "{speed: 0.0}");

@@ -62,3 +62,46 @@ fn robots_that_remember_do_not_suit_rk4() {
     let error = refusal(FILE, "semi_implicit_euler", "rk4");
     assert!(error.contains("method = rk4") && error.contains("write semi_implicit_euler"), "{error}");
 }
+
+/// Two obstacles before the segment, for one robot between them that the pull of its trench does not bring through.
+fn before_a_gap(obstacles: &str, duration: f64) -> trench_scenario::CaseSummary {
+    let text = format!(
+        "name: gap
+kind: nearest_points
+duration: {duration}
+step: 0.002
+method: semi_implicit_euler
+record_every: 0.1
+segment: {{kind: line, points: [[0.0, 0.0], [40.0, 0.0]]}}
+trench: {{kind: hyperbolic, alpha: 10.0, a: 1.0}}
+damping: 5.0
+zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2}}
+clearance: 2.0
+obstacle_potential: {{pole: 1.0, cut: 2.0, strength: 10.0, m: 2, edge: jump}}
+encroaching: obstacles
+obstacles: {obstacles}
+remedies: {{radius: 0.1, patience: 1.0, arrived: 0.05, rising: 0.5}}
+sidesteps: true
+robots: [{{position: [20.2, 14.0]}}]
+"
+    );
+    let scenario = trench_scenario::parse("gap.yaml", &text).unwrap();
+    run_scenario(&scenario, &[]).0.cases.remove(0)
+}
+
+/// A gap that bodies pass and the repulsion on both sides does not let pass: the robot goes round, of discs at once, of long walls by their ends.
+#[test]
+fn who_cannot_pass_a_gap_goes_round() {
+    let discs = "[{disc: [17.75, 6.0], radius: 1.0}, {disc: [22.25, 6.0], radius: 1.0}]";
+    let case = before_a_gap(discs, 60.0);
+    assert!(case.conforms_after.is_some(), "{case:?}");
+    for gap in [2.1, 3.0] {
+        let (left, right) = (20.0 - 0.5 * gap, 20.0 + 0.5 * gap);
+        let walls = format!(
+            "[{{polygon: [[0.0, 3.0], [{left}, 3.0], [{left}, 5.0], [0.0, 5.0]]}}, {{polygon: [[{right}, 3.0], [40.0, 3.0], [40.0, 5.0], [{right}, 5.0]]}}]"
+        );
+        let case = before_a_gap(&walls, 130.0);
+        assert!(case.conforms_after.is_some(), "{gap}: {case:?}");
+        assert!(case.obstacles.iter().all(|obstacle| obstacle.least_gap > 1.5), "{gap}: {case:?}");
+    }
+}

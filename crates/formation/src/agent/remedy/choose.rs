@@ -10,7 +10,7 @@ impl Remedy {
         self.choose_way(sight, robot, drawn);
         if self.state == State::Free
             && self.is_trapped(sight, robot, drawn)
-            && let Some(led) = sight.led_to_place(robot)
+            && let Some(led) = sight.led_to_place(robot, self.wary)
         {
             self.state = led;
         }
@@ -24,7 +24,7 @@ impl Remedy {
         let crowded = sight.teammate_gap(robot) < settings.radius;
         let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else {
             if self.is_caught(sight, robot, target, (None, crowded)) {
-                self.state = sight.led(robot, drawn);
+                self.state = sight.led(robot, drawn, self.wary);
             }
             return;
         };
@@ -44,12 +44,14 @@ impl Remedy {
             let seen = sight.seen_by(index, robot);
             let guard = || guard(&sight.moment.segment, drawn, &outline, seen, settings.radius);
             let guarded = repelled && !crowded && !sight.is_pulled(robot);
-            self.state = match Some(()).filter(|()| guarded).and_then(|()| guard()) {
+            // Whom it does not shield it would not free: a robot before a gap looks past the end of either obstacle.
+            let shields = |guard: &Guard| guard.shields(seen);
+            self.state = match Some(()).filter(|()| guarded).and_then(|()| guard()).filter(shields) {
                 Some(guard) => {
                     let sunk = guard.protrusion(&outline, seen).max(0.0);
                     State::Guarded { obstacle: obstacle.id, guard, sunk }
                 }
-                None => sight.led(robot, drawn),
+                None => sight.led(robot, drawn, self.wary),
             };
         }
     }

@@ -20,6 +20,8 @@ pub(super) struct Remedy {
     drift: Watch,
     /// Rest in a zone where nobody may stay, on the segment or off it.
     rest: Watch,
+    /// It was led along a way that it could not go: the attraction is bounded, and what stands on both sides of a gap may hold more than that.
+    wary: bool,
     state: State,
 }
 
@@ -242,7 +244,7 @@ impl Remedy {
                 // Another place was chosen meanwhile, or the segment has gone on.
                 let astray = !*own && (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
                 if there || astray || sight.time() >= *until {
-                    *self = Self::default();
+                    *self = Self { wary: !there && !astray, ..Self::default() };
                 } else {
                     sight.carry(robot, carrot, way);
                     sight.lead(robot, carrot, way);
@@ -254,7 +256,8 @@ impl Remedy {
         }
         if held {
             self.restart();
-            self.state = sight.led(robot, drawn);
+            self.wary |= matches!(self.state, State::Led { .. });
+            self.state = sight.led(robot, drawn, self.wary);
         }
         match &self.state {
             State::Free | State::Guarded { .. } => Asked::Attraction,

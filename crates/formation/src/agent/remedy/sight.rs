@@ -10,6 +10,8 @@ use crate::zoning::{ObstaclePotential, Zone, Zoning};
 
 /// Pieces of a straight line that are looked at.
 const LOOKS: u32 = 64;
+/// How far beyond robot and target ways are looked for, of rho_hat.
+const ASIDE: f64 = 4.0;
 /// Places on the segment are looked at each so far, of rho_hat.
 const STRIDE: f64 = 0.05;
 
@@ -103,15 +105,16 @@ impl Sight<'_> {
     }
 
     /// A way to what draws the robot; to a place of its own, if there is none to a point of the segment; else a rest.
-    pub(super) fn led(&self, robot: Vector2<f64>, drawn: Drawn) -> State {
-        let own = || matches!(drawn, Drawn::To(_)).then(|| self.led_to_place(robot)).flatten();
+    pub(super) fn led(&self, robot: Vector2<f64>, drawn: Drawn, wary: bool) -> State {
+        let own = || matches!(drawn, Drawn::To(_)).then(|| self.led_to_place(robot, wary)).flatten();
         let rest = || State::Suspended { until: self.time() + self.remedies.watch.patience, within: None };
-        self.way(robot, drawn.point(), false).or_else(own).unwrap_or_else(rest)
+        let far_round = || self.way(robot, drawn.point(), (false, true)).filter(|_| !wary);
+        self.way(robot, drawn.point(), (false, wary)).or_else(own).or_else(far_round).unwrap_or_else(rest)
     }
 
     /// A way to the nearest place where the robot can rest; nothing if there is none.
-    pub(super) fn led_to_place(&self, robot: Vector2<f64>) -> Option<State> {
-        self.way(robot, self.place(robot)?, true)
+    pub(super) fn led_to_place(&self, robot: Vector2<f64>, wary: bool) -> Option<State> {
+        self.way(robot, self.place(robot)?, (true, wary))
     }
 
     /// How far beyond rho the leader is that has come to what draws it, m; negative within, and while the leader is under way.
@@ -149,16 +152,25 @@ impl Sight<'_> {
         best.map(|(_, point)| point)
     }
 
-    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles; `own` if the robot has chosen it.
-    fn way(&self, robot: Vector2<f64>, target: Vector2<f64>, own: bool) -> Option<State> {
+    /// A way to `target` that keeps out of the middle of the repulsion of teammates ahead and obstacles, if `wary` out of all of that of obstacles where
+    /// there is one; `own` if the robot has chosen it.
+    fn way(&self, robot: Vector2<f64>, target: Vector2<f64>, (own, wary): (bool, bool)) -> Option<State> {
         let radii = self.zoning.radii();
-        let (apart, room) = (0.5 * (radii.rho_underbar + radii.rho_hat), self.potential.pole_with_margin());
-        let is_free = |point: Vector2<f64>| {
-            self.teammates().all(|other| (other - point).norm() >= apart)
-                && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
+        let apart = 0.5 * (radii.rho_underbar + radii.rho_hat);
+        let with = |(room, aside): (f64, f64)| {
+            let is_free = |point: Vector2<f64>| {
+                self.teammates().all(|other| (other - point).norm() >= apart)
+                    && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
+            };
+            way_round(robot, target, (0.25 * apart, aside), is_free)
         };
         let patience = self.remedies.watch.patience;
-        let way = way_round(robot, target, (0.25 * apart, 4.0 * radii.rho_hat), is_free)?;
+        let aside = ASIDE * radii.rho_hat;
+        // Where there is no way between them, there may be one round the end of long walls.
+        let clear = Some((self.potential.cut(), 4.0 * aside)).filter(|_| wary).and_then(with);
+        // What is nearest to a robot that goes along a wall goes with it: that is no other place.
+        let own = own || clear.is_some();
+        let way = clear.or_else(|| with((self.potential.pole_with_margin(), aside)))?;
         let corners = core::iter::once(&robot).chain(&way).zip(&way);
         let length: f64 = corners.map(|(from, to)| (to - from).norm()).sum();
         // Twice what the way takes: what is in the way then may be somewhere else.
