@@ -24,6 +24,8 @@ mod report;
 mod room;
 mod scenario;
 mod standing;
+mod starts;
+mod starts_of_scenario;
 mod step;
 mod step_of_scenario;
 mod stiffness;

@@ -10,6 +10,7 @@ use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
 use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
+use crate::starts_of_scenario::{starts_of_directed, starts_of_nearest};
 use crate::step_of_scenario::step;
 use crate::stiffness::steepest;
 use crate::transits::transits;
@@ -109,6 +110,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         chain_damping(subject, &damped_directed(chain)),
     ];
     verdicts.extend(walls_of_directed(subject, chain));
+    verdicts.extend(starts_of_directed(subject, chain));
     let robots = chain.robots.iter().zip(chain.directions.iter().copied());
     verdicts.extend(directions(subject, &Placed::new(&task.curve, Default::default()), robots, chain.law.damping));
     verdicts.extend(feasibility_of_directed(subject, task));
@@ -131,6 +133,7 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec
     ];
     verdicts.extend(task.options.limits.map(|limits| actuators(subject, task, &limits)));
     verdicts.extend(walls_of_nearest(subject, task));
+    verdicts.extend(starts_of_nearest(subject, task));
     if !task.obstacles.is_empty() {
         verdicts.push(clearance(subject, task, body));
     }
