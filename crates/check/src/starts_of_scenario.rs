@@ -1,8 +1,9 @@
 //! What draws the followers of a scenario that begin in zone 5.
 
 use crate::Verdict;
+use crate::drawn::Drawn;
 use crate::scenario::{RANGE, least_sine};
-use crate::starts::{Drawn, starts};
+use crate::starts::starts;
 use crate::stiffness::steepest;
 use crate::walls_of_scenario::least_turn;
 use trench_formation::simulate::{ChainScenario, ZonedChainScenario};

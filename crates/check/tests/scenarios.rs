@@ -265,7 +265,7 @@ fn walls_are_stronger_than_the_trench() {
     // As strong as the limit that the trench never reaches: held at rest. What comes at full speed is another matter.
     let bounded = walls("6.5_bounded.yaml", "", "");
     assert!(
-        bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (its speed at the start)"),
+        bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (with which r4 begins)"),
         "{bounded:?}"
     );
     // Along a direction that is nearly the segment's the trench pulls with Phi'/sin alpha.

@@ -88,3 +88,120 @@ obstacle_potential: {{pole: 1.0, cut: 2.0, strength: 10.0, m: 2}}
     let limits = "limits: {speed: 4.0, acceleration: 20.0}\n";
     check(&at(17.0, limits), "starts", (true, false), &["limits.acceleration = 20 m/s^2", "makes it 4 m/s fast"]);
 }
+
+/// Chapter 7 on 40 m, with what a test adds.
+fn on_40_m(besides: &str) -> String {
+    format!(
+        "\
+name: it
+kind: nearest_points
+duration: 20.0
+step: 0.001
+method: semi_implicit_euler
+segment: {{kind: line, points: [[0, 0], [40, 0]]}}
+trench: {{kind: hyperbolic, alpha: 0.5, a: 1.0}}
+damping: 2.0
+zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 1.0, beta: 1.0, m: 2, full_acceleration: 1.0}}
+clearance: 4.0
+encroaching: obstacles
+obstacle_potential: {{pole: 1.0, cut: 2.0, strength: 10.0, m: 2, full_acceleration: 8.0}}
+{besides}"
+    )
+}
+
+/// Who begins faster than the limit comes at walls with its own speed, not with the limit's.
+#[test]
+fn who_begins_faster_than_the_limit() {
+    let with = |velocities: [f64; 2], obstacle: &str| {
+        let [one, other] = velocities;
+        on_40_m(&format!(
+            "\
+obstacles:
+- {{disc: [60, 4], radius: 2{obstacle}}}
+limits: {{speed: 1.2, acceleration: 10.0}}
+robots:
+- {{position: [9, 4], velocity: [{one}, 0]}}
+- {{position: [3, 4], velocity: [{other}, 0]}}
+"
+        ))
+    };
+    let at_obstacles = |text: &str, told: &str| check(text, "walls", (true, true), &[told, "limits.speed = 1.2"]);
+    at_obstacles(&with([0.0, 50.0], ""), "Who comes at obstacles at 50 m/s (with which r2 begins, above");
+    at_obstacles(&with([50.0, 3.0], ""), "Who comes at obstacles at 50 m/s (with which r1 begins, above");
+    at_obstacles(&with([50.0, 0.0], ", velocity: [-1, 0]"), "at obstacles at 51 m/s (with which r1 begins");
+    // Below the pull over damping, 0.25 m/s, nothing has changed, and below the limit it is no excess.
+    check(&with([0.1, 0.2], ""), "walls", (true, true), &["at zones at 0.25 m/s (pull over damping) has"]);
+    check(&with([0.1, 0.6], ""), "walls", (true, true), &["at zones at 0.6 m/s (with which r2 begins) has"]);
+}
+
+/// A filter keeps those apart whose ways to stop are: bodies that have no room to begin with overlap, and stand so for good.
+#[test]
+fn bodies_begin_with_room_to_stop() {
+    let with = |obstacles: &str, robots: &str| {
+        let besides = "limits: {speed: 1.2, acceleration: 2.0}\nsafety: {body_radius: 0.5}";
+        on_40_m(&format!("{obstacles}{besides}\nrobots:\n{robots}"))
+    };
+    let pair = |x: f64, speed: f64| {
+        let (one, other) = ("[3, 4], velocity: [1.2, 0]", format!("[{x}, 4], velocity: [{speed}, 0]"));
+        with("", &format!("- {{position: {one}}}\n- {{position: {other}}}\n"))
+    };
+    let parts = [
+        "r1 and r2: 0.3 m are between them, they close at 2.4 m/s, and need 0.36 and 0.36 m to stop with 2 m/s^2",
+        "0.42 m are missing",
+        "so much farther apart, or slower",
+    ];
+    check(&pair(4.3, -1.2), "stopping", (false, false), &parts);
+    check(&pair(4.71, -1.2), "stopping", (false, false), &["0.01 m are missing"]);
+    check(&pair(4.73, -1.2), "stopping", (true, false), &["all 2 begin with room to stop"]);
+    // Who goes the same way leaves room; the ways are too near each other all the same.
+    check(&pair(4.3, 1.2), "stopping", (true, true), &["Braking at once they do not touch"]);
+    check(&pair(4.4, 1.2), "stopping", (true, false), &[]);
+    let disc = "obstacles:\n- {disc: [6, 4], radius: 2}\n";
+    let robot = |x: f64, velocity: &str| format!("- {{position: [{x}, 4], velocity: {velocity}}}\n");
+    let before =
+        ["r1 and obstacle 1: 0.2 m are between them, they close at 1.2 m/s, and need 0.36 m", "0.16 m are missing"];
+    check(&with(disc, &robot(3.3, "[1.2, 0]")), "stopping", (false, false), &before);
+    check(&with(disc, &robot(3.1, "[1.2, 0]")), "stopping", (true, false), &[]);
+    check(&with(disc, &robot(3.3, "[-1.2, 0]")), "stopping", (true, false), &[]);
+    // Faster than they are allowed: ways are those of the start.
+    check(&with(disc, &robot(-5.0, "[6.0, 0]")), "stopping", (false, false), &["need 9 m to stop"]);
+    // Ways that cross.
+    let crossing = "- {position: [10, 4], velocity: [4, 0]}\n- {position: [12, 2.5], velocity: [0, 4]}\n";
+    check(&with("", crossing), "stopping", (false, false), &["r1 and r2"]);
+    // Without a filter nobody promises anything.
+    assert_eq!(judged(&on_40_m(&format!("robots:\n{}", robot(3.3, "[1.2, 0]"))), "stopping"), []);
+}
+
+/// Nobody stands in an obstacle: a team goal there keeps r1 off for good, one that an obstacle passes over for a while.
+#[test]
+fn team_goals_among_obstacles() {
+    let at = |goal: &str, obstacles: &str| {
+        let robots = "robots:\n- {position: [3, 9]}\n- {position: [9, 9]}\n";
+        on_40_m(&format!("team_goal: {goal}\nobstacles:\n{obstacles}{robots}"))
+    };
+    let disc = "- {disc: [20, 0], radius: 2}\n";
+    let inside = ["team_goal lies 2 m inside obstacle 1", "r1 is kept off", "move team_goal or the obstacle 4 m apart"];
+    check(&at("[20, 0]", disc), "goal", (false, false), &inside);
+    check(
+        &at("[22.5, 0]", disc),
+        "goal",
+        (false, false),
+        &["0.5 m from obstacle 1", "within 1 m of it", "1.5 m apart"],
+    );
+    check(&at("[23.5, 0]", disc), "goal", (true, true), &["1.5 m from obstacle 1, which pushes", "beside the goal"]);
+    assert_eq!(judged(&at("[24.5, 0]", disc), "goal"), []);
+    // Between two that are one hull.
+    let two = "- {disc: [18, 0], radius: 0.5}\n- {disc: [22, 0], radius: 0.5}\n";
+    check(&at("[20, 0]", two), "goal", (false, false), &["0.5 m inside the hull of obstacles 1, 2"]);
+    // Down from y = 10 at 1 m/s: nobody stands at the goal while the outline is within a metre.
+    let passing = "- {disc: [20, 10], radius: 2, velocity: [0, -1]}\n";
+    check(
+        &at("[20, 0]", passing),
+        "goal",
+        (true, true),
+        &["2 m inside obstacle 1", "at 10.0 s", "from about 7.1 s to 12.9 s"],
+    );
+    let staying = "- {disc: [20, 10], radius: 2, velocity: [0, -0.5]}\n";
+    check(&at("[20, 0]", staying), "goal", (true, true), &["at 20.0 s", "from about 14.1 s to the end"]);
+    assert_eq!(judged(&at("[35, 0]", passing), "goal"), []);
+}
