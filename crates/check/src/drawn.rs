@@ -85,11 +85,12 @@ impl Drawn<'_> {
         self.approach(pair, full).0 >= self.zoning.radii().rho_hat
     }
 
-    /// The largest full acceleration with which all stay outside of zone 2, m/s^2; none where that is not above the trench's pull.
-    pub(crate) fn bearable_force(&self) -> Option<f64> {
-        let bears = |full: f64| self.pairs().all(|pair| self.is_borne(&pair, full));
-        let most = largest(self.pull, self.zoning.full_acceleration(), bears)?;
-        Some(SAFELY * most).filter(|most| *most > self.pull)
+    /// The largest full acceleration with which a follower, and all others, stay outside of zone 2, m/s^2; none where that is not above the
+    /// trench's pull.
+    pub(crate) fn bearable_force(&self, worst: &Pair) -> Option<f64> {
+        let most = largest(self.pull, self.zoning.full_acceleration(), |full| self.is_borne(worst, full))?;
+        let safe = SAFELY * most;
+        (safe > self.pull && self.pairs().all(|pair| self.is_borne(&pair, safe))).then_some(safe)
     }
 
     /// From how far off a follower would stay outside of zone 2, m.

@@ -53,7 +53,7 @@ pub(crate) fn starts(subject: &str, drawn: &Drawn<'_>) -> Option<Verdict> {
             remedies.push(format!("make rho and rho_check {} m larger", number(more)));
         }
     }
-    remedies.extend(drawn.bearable_force().map(|most| format!("make zoning.full_acceleration {}", number(most))));
+    remedies.extend(drawn.bearable_force(pair).map(|most| format!("make zoning.full_acceleration {}", number(most))));
     remedies.push("damp it more".to_owned());
     let remedy = remedies.join(", or ");
     Some(if nearest > radii.rho_underbar {
