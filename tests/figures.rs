@@ -73,12 +73,6 @@ fn labels(figure: &Figure, scenario: &Scenario) -> Vec<String> {
     if names.len() > 1 { names } else { Vec::new() }
 }
 
-fn name_of(figure: &Figure) -> String {
-    let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '-' };
-    let name: String = format!("figure-{}", figure.number).chars().map(plain).collect();
-    name.replace("--", "-").trim_end_matches('-').to_owned()
-}
-
 /// Runs a scenario for its own time, or for a shorter one, and looks at its figures.
 fn check_figures(file: &Path, folder: &Path) {
     let text = fs::read_to_string(file).unwrap();
@@ -86,7 +80,7 @@ fn check_figures(file: &Path, folder: &Path) {
     let pictures = plotted(file, folder, &[]);
     assert_eq!(pictures.len(), 2 * scenario.figures.len(), "{file:?}: SVG and PNG of each");
     for figure in &scenario.figures {
-        let name = name_of(figure);
+        let name = figure.file_name();
         let [svg, png] = ["svg", "png"].map(|kind| folder.join(format!("{name}.{kind}")));
         assert!(pictures.contains(&svg) && pictures.contains(&png), "{file:?}: {name} is not among {pictures:?}");
         let told = texts(&svg);
@@ -194,6 +188,12 @@ fn a_bag_of_the_square_draws_what_every_run_has() {
     assert!(trench(&run).status.success());
     let pictures = plotted(&bag, &folder.path().join("out"), &["--at", "0,3,8,16"]);
     assert_eq!(pictures.len(), 8);
+    for at in ["99", "-1"] {
+        let late = trench(&["plot", bag.to_str().unwrap(), &format!("--at=3,{at}")]);
+        let told = String::from_utf8_lossy(&late.stderr);
+        let ends = format!("--at {at} is not of the run, which ends 1");
+        assert!(!late.status.success() && told.contains(&ends) && told.contains("seconds between 0"), "{told}");
+    }
     for (name, expected) in [
         ("trajectories", &["robot1", "robot4"][..]),
         ("errors", &["robot1", "robot4"]),

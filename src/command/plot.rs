@@ -69,7 +69,12 @@ enum PlotError {
     NoRun(PathBuf),
     #[error("{}: does not exist; give a bag (folder or .mcap file), a table (.csv) of trench sim, or a scenario (.yaml)", .0.display())]
     Missing(PathBuf),
+    #[error("{}: --at {at} is not of the run, which ends {last} s after its beginning; give seconds between 0 and that", path.display())]
+    At { path: PathBuf, at: f64, last: f64 },
 }
+
+/// By which share of a run a snapshot may be taken after its last record: bags end a little before what they record does.
+const LATE: f64 = 0.01;
 
 /// Draws diagrams of quantities over one horizontal axis, one below the other, as SVG. The legend names the curves in
 /// the order of their colours.
@@ -111,6 +116,10 @@ fn draw_all(arguments: &Arguments) -> Result<Vec<PathBuf>, PlotError> {
     let Some((first, last)) = run.span() else { return Err(PlotError::Empty(arguments.run.clone())) };
     // What came before the beginning of the run is not part of it.
     let span = (first.max(0.0).min(last), last);
+    let latest = span.1 + LATE * (span.1 - span.0);
+    if let Some(at) = arguments.at.iter().find(|at| !(0.0..=latest).contains(*at)) {
+        return Err(PlotError::At { path: arguments.run.clone(), at: *at, last: span.1 });
+    }
     let times = if arguments.at.is_empty() { snapshots::telling_times(&run, span, 6) } else { arguments.at.clone() };
     let folder = arguments.out.clone().unwrap_or_else(|| default_folder(&arguments.run));
     fs::create_dir_all(&folder).map_err(|source| PlotError::Io { path: folder.clone(), source })?;
@@ -133,14 +142,11 @@ fn draw_figures(arguments: &Arguments, scenario: &Scenario, run: &Run) -> Result
     fs::create_dir_all(&folder).map_err(|source| PlotError::Io { path: folder.clone(), source })?;
     let mut paths = Vec::new();
     for figure in &scenario.figures {
-        let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '-' };
-        let name: String = format!("figure-{}", figure.number).chars().map(plain).collect();
-        let name = name.replace("--", "-");
         let picture = match scenario.task {
             Task::Launch(_) => of_launch(figure, run),
             _ => figures::draw(figure, scenario, run),
         };
-        save(arguments, &folder, (name.trim_end_matches('-'), picture), &mut paths)?;
+        save(arguments, &folder, (&figure.file_name(), picture), &mut paths)?;
     }
     Ok(paths)
 }

@@ -9,7 +9,7 @@ use trench_formation::simulate::ChainScenario;
 
 const EQUATION: &str = "n places on the fragments at all times, each rho_hat or more from all others (7.5.1)";
 /// Moments of a run that are looked at; when room is lost is found between two of them.
-const MOMENTS: usize = 200;
+pub(crate) const MOMENTS: usize = 200;
 /// When room is lost is told to this, s.
 const FINE: f64 = 1e-3;
 

@@ -34,8 +34,13 @@ pub(crate) fn room(subject: &str, segment: &Curve, fragments: &[Interval], robot
         );
         return Verdict::noted("room", subject, finding, EQUATION);
     }
+    let places = if found == most {
+        format!("{most} places")
+    } else {
+        format!("no more than {most} places ({found} were found)")
+    };
     let finding = format!(
-        "{on} have {most} places, {apart} m from each other, but there are {robots} robots: lengthen the segment or move obstacles away"
+        "{on} have {places}, {apart} m from each other, but there are {robots} robots: lengthen the segment or move obstacles away"
     );
     Verdict::new("room", subject, false, finding, EQUATION)
 }

@@ -4,14 +4,17 @@ use crate::clearance::clearance;
 use crate::damping::chain_damping;
 use crate::damping_of_scenario::{damped_directed, damped_nearest};
 use crate::goal::goal;
+use crate::goal_among_obstacles::goal_among_obstacles;
 use crate::growth::growth_at_rest;
 use crate::limits::{Largest, of_scenario};
 use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
 use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
+use crate::starts_of_scenario::{starts_of_directed, starts_of_nearest};
 use crate::step_of_scenario::step;
 use crate::stiffness::steepest;
+use crate::stopping_of_scenario::{stopping_of_chain, stopping_of_goals, stopping_of_queue};
 use crate::transits::transits;
 use crate::verdict::number;
 use crate::walls_of_scenario::{walls_of_directed, walls_of_nearest};
@@ -71,13 +74,14 @@ fn of_task(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                         Largest { trench: steepest(&law.trench, RANGE), zones: 0.0, obstacles: 0.0, at_once: [0, 0] };
                     of_scenario(&name, &largest, &bounds.limits)
                 });
-                [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able)
+                let stopping = bounds.and_then(|bounds| stopping_of_goals(&name, &bounds, &task.robots));
+                [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able).chain(stopping)
             })
             .collect()
         }
         Task::Directed(task) => directed(subject, task),
         Task::Nearest(task, _) => nearest(subject, task, scenario.timing.duration),
-        Task::Queue(task) => queue(subject, task),
+        Task::Queue(task) => queue(subject, task).into_iter().chain(stopping_of_queue(subject, &task.queue)).collect(),
         Task::Launch(_) => Vec::new(),
     }
 }
@@ -109,6 +113,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
         chain_damping(subject, &damped_directed(chain)),
     ];
     verdicts.extend(walls_of_directed(subject, chain));
+    verdicts.extend(starts_of_directed(subject, chain));
     let robots = chain.robots.iter().zip(chain.directions.iter().copied());
     verdicts.extend(directions(subject, &Placed::new(&task.curve, Default::default()), robots, chain.law.damping));
     verdicts.extend(feasibility_of_directed(subject, task));
@@ -131,6 +136,8 @@ fn nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec
     ];
     verdicts.extend(task.options.limits.map(|limits| actuators(subject, task, &limits)));
     verdicts.extend(walls_of_nearest(subject, task));
+    verdicts.extend(starts_of_nearest(subject, task));
+    verdicts.extend(stopping_of_chain(subject, task));
     if !task.obstacles.is_empty() {
         verdicts.push(clearance(subject, task, body));
     }
@@ -187,7 +194,9 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, durati
     let recovers = task.options.recovery.is_some();
     let later = room_on_the_way(subject, task, duration);
     let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));
-    room.into_iter().chain(later).chain([connection(subject, radii, &task.robots, recovers)]).chain(goal).collect()
+    let kept_off = goal_among_obstacles(subject, task, body_radius(task).unwrap_or(0.0), duration);
+    let connection = connection(subject, radii, &task.robots, recovers);
+    room.into_iter().chain(later).chain([connection]).chain(goal).chain(kept_off).collect()
 }
 
 /// Whether the potential forces leave the stability argument whole when acceleration and speed are bounded.

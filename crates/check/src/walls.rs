@@ -51,14 +51,15 @@ impl Wall {
 }
 
 /// What comes at walls.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Coming {
     /// The largest pull of the trench, m/s^2; along a direction at an angle alpha to the segment Phi'/sin alpha.
     pub(crate) pull: f64,
-    /// m/s: the limit of speed, or what the trench alone makes of a robot, which is pull over damping, or what it begins with.
+    /// m/s: what the trench alone makes of a robot, which is pull over damping, up to the limit of speed; or what it begins with, if that is
+    /// more: limits brake, but do not undo.
     pub(crate) speed: f64,
     /// Which of them, for people.
-    pub(crate) because: &'static str,
+    pub(crate) because: String,
 }
 
 /// Judges walls. One whose largest force the trench outdoes fails: whoever is drawn into it goes through. One that a robot may pass by its speed
@@ -87,7 +88,7 @@ pub(crate) fn walls(subject: &str, coming: &Coming, walls: &[Wall]) -> Option<Ve
         format!("{} m/s^2 at most, the trench less: robots that stand before them are held", told.join(", "));
     let thin: Vec<String> = walls.iter().filter_map(|wall| passed(wall, coming)).collect();
     Some(if thin.is_empty() {
-        let (speed, because) = (number(coming.speed), coming.because);
+        let (speed, because) = (number(coming.speed), &coming.because);
         let finding = format!(
             "{stronger}, and so is who comes at {speed} m/s ({because}) and is not pushed or pulled by other robots besides"
         );
@@ -107,10 +108,11 @@ fn passed(wall: &Wall, coming: &Coming) -> Option<String> {
     let (brought, drawn) = (0.5 * speed * speed, wall.width * coming.pull);
     (brought + drawn > wall.depth).then(|| {
         format!(
-            "Who comes at {} at {} m/s ({}) has {} m^2/s^2, the trench adds up to {} on {} m, and they take {}",
+            "Who comes at {} at {} m/s ({}{}) has {} m^2/s^2, the trench adds up to {} on {} m, and they take {}",
             wall.name,
             number(speed),
-            if wall.speed > 0.0 { "the obstacle's own speed included" } else { coming.because },
+            coming.because,
+            if wall.speed > 0.0 { "; the obstacle's own speed included" } else { "" },
             number(brought),
             number(drawn),
             number(wall.width),

@@ -23,7 +23,7 @@ pub(crate) fn walls_of_controller(
     if matches!(law, "zoned" | "chain") {
         all.extend(zoning(parameters)?.map(|zoning| Wall::zones(&zoning, key)));
     }
-    let (speed, because) = (parameters.f64("motion.speed")?, "motion.speed");
+    let (speed, because) = (parameters.f64("motion.speed")?, "motion.speed".to_owned());
     Ok(walls(name, &Coming { pull, speed, because }, &all))
 }
 

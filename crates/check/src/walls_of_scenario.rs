@@ -3,6 +3,7 @@
 use crate::Verdict;
 use crate::scenario::{RANGE, least_sine};
 use crate::stiffness::steepest;
+use crate::verdict::number;
 use crate::walls::{Coming, Wall, walls};
 use trench_formation::Vector2;
 use trench_formation::kinematics::PointState;
@@ -37,14 +38,23 @@ pub(crate) fn walls_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>) -
     walls(subject, &coming(pull, task.law.damping, &task.robots, still, task.options.limits), &all)
 }
 
-/// What the trench makes of robots, on a segment that moves at `still` (m/s).
+/// What the trench makes of robots, on a segment that moves at `still` (m/s), up to the limit; or the fastest at its start, if that is more.
 fn coming(pull: f64, damping: f64, robots: &[PointState], still: Vector2<f64>, limits: Option<Capability>) -> Coming {
-    let first = robots.iter().map(|robot| (robot.velocity - still).norm()).fold(0.0, f64::max);
     let drawn = pull / damping;
-    let (speed, because) = if first > drawn { (first, "its speed at the start") } else { (drawn, "pull over damping") };
-    match limits {
-        Some(limits) if limits.speed < speed => Coming { pull, speed: limits.speed, because: "limits.speed" },
-        _ => Coming { pull, speed, because },
+    let (usual, because) = match limits {
+        Some(limits) if limits.speed < drawn => (limits.speed, "limits.speed"),
+        _ => (drawn, "pull over damping"),
+    };
+    let starts = robots.iter().map(|robot| (robot.velocity - still).norm()).enumerate();
+    match starts.max_by(|(_, one), (_, other)| one.total_cmp(other)) {
+        Some((index, speed)) if speed > usual => {
+            let faster = match limits {
+                Some(limits) if limits.speed < speed => format!(", above limits.speed = {}", number(limits.speed)),
+                _ => String::new(),
+            };
+            Coming { pull, speed, because: format!("with which r{} begins{faster}", index + 1) }
+        }
+        _ => Coming { pull, speed: usual, because: because.to_owned() },
     }
 }
 

@@ -108,6 +108,12 @@ figures:
         ))
         .holds
     );
+    // On a circle opposite places are 4 m apart: two are found, and no more than three are promised not to be.
+    let circle =
+        few.replace("kind: line, points: [[0.0, 0.0], [10.0, 0.0]]", "kind: circle, centre: [5.0, 6.0], radius: 2.0");
+    let circle = room(&circle.replace("team_goal: [10.0, 0.0]", "team_goal: [7.0, 6.0]"));
+    let told = "have no more than 3 places (2 were found), 4 m from each other, but there are 5 robots";
+    assert!(!circle.holds && circle.finding.contains(told), "{circle:?}");
     // There and back 1 m beside: six places along the way, three in the plane.
     let hairpin =
         few.replace("kind: line", "kind: polyline").replace("[10.0, 0.0]]}", "[10.0, 0.0], [10.0, 1.0], [0.0, 1.0]]}");
@@ -265,7 +271,7 @@ fn walls_are_stronger_than_the_trench() {
     // As strong as the limit that the trench never reaches: held at rest. What comes at full speed is another matter.
     let bounded = walls("6.5_bounded.yaml", "", "");
     assert!(
-        bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (its speed at the start)"),
+        bounded.holds && bounded.note && bounded.finding.contains("at 1.01 m/s (with which r4 begins)"),
         "{bounded:?}"
     );
     // Along a direction that is nearly the segment's the trench pulls with Phi'/sin alpha.

@@ -195,6 +195,15 @@ pub struct Figure {
     pub window: Option<[f64; 4]>,
 }
 
+impl Figure {
+    /// The name of its picture's file, without an extension.
+    pub fn file_name(&self) -> String {
+        let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '-' };
+        let name: String = format!("figure-{}", self.number).chars().map(plain).collect();
+        name.replace("--", "-").trim_end_matches('-').to_owned()
+    }
+}
+
 /// Kinds of pictures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drawing {

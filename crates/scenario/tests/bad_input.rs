@@ -320,6 +320,13 @@ fn events_are_of_the_run() {
     check("A.22_quit_and_join.yaml", r6, "- {position: [19.0, -0.5], quits: {at: 80.1, to: [0, 0]}}", &[after[0]]);
     let (name, link) = ("8.4.1_broken_links.yaml", "{robot: r4, from: 1.0, to: 4.0}");
     check(name, link, "{robot: r4, from: 100.0, to: 200.0}", &["broken_links[0].from = 100.0", after[0]]);
+    // At its end nothing would be seen of it.
+    check(
+        name,
+        link,
+        "{robot: r4, from: 40.0, to: 200.0}",
+        &["broken_links[0].from = 40.0", "no link would break in it", "before it, 40"],
+    );
     check(
         name,
         link,
@@ -363,4 +370,19 @@ fn robots_begin_in_places_of_their_own() {
         assert!(text.contains("move one of them"), "{text}");
     }
     assert!(told("8.4_queue.yaml", "- {position: [35.0, 6.0]}", "- {position: [35.0, 6.06]}").is_ok());
+}
+
+/// Pictures of one name would be one file, and the last would stay.
+#[test]
+fn figures_have_names_of_their_own() {
+    let (name, old) = ("6.5_k_5.yaml", "figures:\n");
+    let twice = |first: &str, second: &str| {
+        format!(
+            "figures:\n- {{figure: \"{first}\", title: a, draws: errors}}\n- {{figure: \"{second}\", title: b, draws: trajectories}}\n"
+        )
+    };
+    let parts = ["figures[1].figure = \"1\"", "figures[0]", "the file figure-1,", "a name of its own"];
+    told(name, old, &twice("1", "1"), &parts);
+    told(name, old, &twice("1 (a)", "1 [a]"), &["figures[1].figure = \"1 [a]\"", "the file figure-1-a,"]);
+    parse(name, &file(name).replace(old, &twice("1", "1.a"))).unwrap();
 }

@@ -26,7 +26,21 @@ const DRAWINGS: [(&str, Drawing); 16] = [
 ];
 
 pub(super) fn read(nodes: &[Node], scenario: &Scenario) -> Result<Vec<Figure>, ConfigError> {
-    nodes.iter().map(|node| figure(node, scenario)).collect()
+    let figures: Vec<Figure> = nodes.iter().map(|node| figure(node, scenario)).collect::<Result<_, _>>()?;
+    for (index, (figure, node)) in figures.iter().zip(nodes).enumerate() {
+        if let Some(same) = figures[..index].iter().position(|other| other.file_name() == figure.file_name()) {
+            let (map, name) = (node.map()?, figure.file_name());
+            let problem = format!(
+                "is the name of figures[{same}], too: both would be the file {name}, one in place of the other"
+            );
+            return Err(map.error(
+                "figure",
+                problem,
+                "give each picture a name of its own, of other letters, digits or dots",
+            ));
+        }
+    }
+    Ok(figures)
 }
 
 fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {

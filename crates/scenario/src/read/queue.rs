@@ -140,6 +140,10 @@ fn broken(node: &Node, count: usize, (timing, leads): (&Timing, bool)) -> Result
     }
     // One that is whole again after the run is broken to its end.
     let (from, to) = (within_run(&map, "from", map.f64("from")?, timing)?, map.f64("to")?);
+    if from > timing.duration - 0.5 * timing.step {
+        let remedy = format!("write seconds before it, {}", timing.duration);
+        return Err(map.error("from", format!("{from} s is the end of the run: no link would break in it"), remedy));
+    }
     if from >= to {
         return Err(map.error("to", "is not after `from`", "write when the link is whole again, s"));
     }
