@@ -45,8 +45,13 @@ pub(crate) fn clearance(subject: &str, task: &ChainScenario<AnyTrench>, body: Op
         _ if task.clearance < cuts => {
             let finding = format!(
                 "{fits}fit into what is left, and poles leave a way; but in gaps below {} m, twice the cut, both sides push all over the gap: \
-                 who is not drawn harder stays before it",
-                number(cuts)
+                 who is not drawn harder {}",
+                number(cuts),
+                if task.remedies.is_some() {
+                    "is held before it, and goes round by its remedies"
+                } else {
+                    "stays before it: `remedies` lead it round"
+                }
             );
             Verdict::noted("clearance", subject, finding, EQUATION)
         }
