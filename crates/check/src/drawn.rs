@@ -1,5 +1,6 @@
 //! How near followers come to their leaders that begin far from them.
 
+use crate::stopping::closing;
 use trench_formation::kinematics::PointState;
 use trench_formation::laws::Capability;
 use trench_formation::zoning::{Zone, Zoning};
@@ -40,8 +41,8 @@ impl Drawn<'_> {
     pub(crate) fn pairs(&self) -> impl Iterator<Item = Pair> + '_ {
         let pair = |(index, pair): (usize, &[PointState])| {
             let apart = pair[0].position - pair[1].position;
-            let closing = (pair[1].velocity - pair[0].velocity).dot(&apart) / apart.norm();
-            Pair { index: index + 1, distance: apart.norm(), closing: closing.max(0.0) }
+            let closing = closing(pair[1].velocity - pair[0].velocity, apart).max(0.0);
+            Pair { index: index + 1, distance: apart.norm(), closing }
         };
         let is_drawn = |pair: &Pair| matches!(self.zone(pair), Zone::Attractive | Zone::Margin);
         self.robots.windows(2).enumerate().map(pair).filter(is_drawn)

@@ -143,6 +143,7 @@ fn before(filter: &Stopping, (index, robot): (usize, &PointState), id: u32, outl
     })
 }
 
-fn closing(velocity: Vector2<f64>, towards: Vector2<f64>) -> f64 {
+/// How fast somebody with a velocity (m/s) comes nearer to what is `towards` it, m/s.
+pub(crate) fn closing(velocity: Vector2<f64>, towards: Vector2<f64>) -> f64 {
     towards.try_normalize(0.0).map_or(0.0, |towards| velocity.dot(&towards))
 }

@@ -20,6 +20,11 @@ impl RigidMotion {
         Self { origin: GoalMotion::at_rest(Vector2::zeros()), turn_rate: 0.0, turn_acceleration: 0.0 }
     }
 
+    /// Whether nothing of it moves now.
+    pub fn rests(&self) -> bool {
+        self.turn_rate == 0.0 && self.origin.velocity == Vector2::zeros()
+    }
+
     /// The frame's pose and motion after `time` (s) of constant accelerations.
     pub fn carried(&self, pose: Isometry2<f64>, time: f64) -> (Isometry2<f64>, Self) {
         if time == 0.0 {

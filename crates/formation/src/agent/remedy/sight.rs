@@ -104,19 +104,13 @@ impl Sight<'_> {
         }
     }
 
-    /// Whether the segment rests: from one that moves on, the end of a long way is gone when the robot comes there.
-    fn rests(&self) -> bool {
-        self.around.motion.at(Vector2::zeros()).velocity == Vector2::zeros()
-            && self.around.motion.at(Vector2::x()).velocity == Vector2::zeros()
-    }
-
     /// A way to what draws the robot; to a place of its own, if there is none to a point of the segment; else a rest.
     pub(super) fn led(&self, robot: Vector2<f64>, drawn: Drawn, wary: bool) -> State {
         let own = || matches!(drawn, Drawn::To(_)).then(|| self.led_to_place(robot, wary)).flatten();
         let rest = || State::Suspended { until: self.time() + self.remedies.watch.patience, within: None };
-        let far_round =
-            || Some(()).filter(|()| !wary && self.rests()).and_then(|()| self.way(robot, drawn.point(), (false, true)));
-        self.way(robot, drawn.point(), (false, wary)).or_else(own).or_else(far_round).unwrap_or_else(rest)
+        let to_point = |wary: bool| self.way(robot, drawn.point(), (false, wary));
+        let far_round = || (!wary && self.around.motion.rests()).then(|| to_point(true)).flatten();
+        to_point(wary).or_else(own).or_else(far_round).unwrap_or_else(rest)
     }
 
     /// A way to the nearest place where the robot can rest; nothing if there is none.
@@ -174,7 +168,9 @@ impl Sight<'_> {
         let patience = self.remedies.watch.patience;
         let aside = ASIDE * radii.rho_hat;
         // Where there is no way between them, there may be one round the end of long walls.
-        let clear = Some((self.potential.cut(), 4.0 * aside)).filter(|_| wary && self.rests()).and_then(with);
+        // From a segment that moves on, the end of a long way is gone when the robot comes there.
+        let goes_far = wary && self.around.motion.rests();
+        let clear = goes_far.then(|| with((self.potential.cut(), 4.0 * aside))).flatten();
         // What is nearest to a robot that goes along a wall goes with it: that is no other place.
         let own = own || clear.is_some();
         let way = clear.or_else(|| with((self.potential.pole_with_margin(), aside)))?;

@@ -1,6 +1,6 @@
 //! Segments of a random team besides the common ones: closed ones, graphs of expressions, queues with an open end.
 use super::chance::Chance;
-use crate::Vector2;
+use super::segment::Room;
 use crate::curve::CurveShape;
 use core::f64::consts::{PI, TAU};
 use trench_expression::Expression;
@@ -8,12 +8,8 @@ use trench_expression::Expression;
 /// A segment with room for `count` robots, and whether its last end is open: a circle, an ellipse, y = f(x), or a line or polyline that goes on for
 /// ever. Nothing where f cannot be written.
 pub(super) fn random_other_segment(chance: &mut Chance, count: usize) -> Option<(CurveShape, bool)> {
-    let length = 2.0 * count as f64 + chance.between(3.0, 8.0);
-    let middle = chance.point(2.0);
-    let heading = chance.between(0.0, TAU);
-    let (sine, cosine) = libm::sincos(heading);
-    let (along, across) = (Vector2::new(cosine, sine), Vector2::new(-sine, cosine));
-    let at = |x: f64, y: f64| middle + length * (x * along + y * across);
+    let room = Room::random(chance, count);
+    let Room { length, middle, heading, .. } = room;
     Some(match chance.below(5) {
         0 => (CurveShape::Arc { centre: middle, radius: length / TAU, start_angle: heading, sweep: TAU }, false),
         1 => {
@@ -30,7 +26,7 @@ pub(super) fn random_other_segment(chance: &mut Chance, count: usize) -> Option<
             let function = Expression::parse(&text).ok()?;
             (CurveShape::Graph { function, from: -0.5 * length, to: 0.5 * length }, false)
         }
-        3 => (CurveShape::Line(at(-0.5, 0.0), at(0.5, 0.0)), true),
-        _ => (CurveShape::Polyline(vec![at(-0.5, 0.0), at(0.0, chance.between(-0.2, 0.2)), at(0.5, 0.0)]), true),
+        3 => (room.line(), true),
+        _ => (room.bent(chance), true),
     })
 }
