@@ -232,7 +232,9 @@ class Judged(unittest.TestCase):
         self.assertEqual(self.problems({"rests": 0.8, "pulses": 0.3}), "")
         self.moved(BEGAN + 0.3, BEGAN + 0.7, SPEED)
         self.assertIn("a robot stood for 4", self.problems({"rests": 0.8}))
-        self.assertIn("a robot moved for 0.3", self.problems({"pulses": 0.3}))
+        moved = motion.stretch(self.bag, BEGAN + motion.AGE, ENDED)
+        self.assertIn("a robot moved for 0.3", self.problems({"pulses": moved - 1.5 * motion.FRAME}))
+        self.assertNotIn("moved for", self.problems({"pulses": moved - 0.5 * motion.FRAME}))
         self.bag.truth["robot1"] = Series()
         self.assertEqual(motion.resting_share(self.bag, BEGAN, ENDED), 0.0)
 

@@ -34,7 +34,7 @@ the worst of all seeds that were run:
 - where nothing keeps robots from driving (lost packets that others make good for, voices that are refused, a fault of another robot alone), none stands for
   longer than the matrix says (`drives`), during the fault and for a second after it. Where some halt and may stand, that holds for the others;
 - where control is not safe for most of the time (a network that loses half, or brings most of it too late), passing is to stop safely: each robot stands for the share of the
-  time that the matrix says (`rests`), moves for no longer at a time than it says (`pulses`), and as everywhere never on what is older than 0.25 s; the verdict says so;
+  time that the matrix says (`rests`), moves for no longer at a time than it says and a frame more (`pulses`), and as everywhere never on what is older than 0.25 s; the verdict says so;
 - **rest**: after the death of a process, how long a robot stood at most: no longer than until the victim lives again, and a second;
 - **driven**: all robots move again, or are where their resting goal points are, within 2 s of its end (the victim lives again, the injection is off);
 - **formed**: all robots within 40 mm of their goal points, which move on, within 10 s of its end and until the

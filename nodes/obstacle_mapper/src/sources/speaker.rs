@@ -17,6 +17,13 @@ const GRACE: f64 = 1.0;
 const MOST_OBSTACLES: usize = 1000;
 const MOST_CORNERS: usize = 20_000;
 
+/// What was said of an obstacle last.
+#[derive(Debug, Clone)]
+struct News {
+    stamp: RosTime,
+    known: Known,
+}
+
 /// A publisher with what it told last.
 pub(super) struct Speaker {
     pub(super) gid: [u8; 16],
@@ -28,7 +35,7 @@ pub(super) struct Speaker {
     taken: Option<Steady>,
     /// Its longest silence so far, s, once it has spoken twice.
     rhythm: Option<f64>,
-    known: Vec<Known>,
+    known: Vec<News>,
     pub(super) complaints: Vec<String>,
 }
 
@@ -54,10 +61,11 @@ impl Speaker {
             Some(reason) => vec![reason],
             None => {
                 self.stamp = Some(stamp);
-                let complaints = self.replace(message);
-                // Who tells of obstacles none of which is one has told of nothing.
-                if message.obstacles.is_empty() || !self.known.is_empty() {
+                let (known, complaints) = self.read(stamp, message);
+                // Who tells of obstacles none of which is one has told of nothing, and not of a field without any.
+                if message.obstacles.is_empty() || known.iter().any(|news| news.stamp == stamp) {
                     self.taken = Some(at.steady);
+                    self.known = known;
                 }
                 complaints
             }
@@ -83,22 +91,29 @@ impl Speaker {
         })
     }
 
-    fn replace(&mut self, message: &ObstacleArray) -> Vec<String> {
-        let (mut usable, mut complaints) = (BTreeMap::new(), Vec::new());
+    /// The obstacles of a message, and what is wrong with it. One that cannot be used and was known is still there.
+    fn read(&self, stamp: RosTime, message: &ObstacleArray) -> (Vec<News>, Vec<String>) {
+        let (mut usable, mut kept, mut complaints) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
         for obstacle in &message.obstacles {
-            match Known::read(obstacle.id.wrapping_add(self.offset), obstacle) {
-                Ok((known, _)) if usable.contains_key(&known.id) => {
+            let id = obstacle.id.wrapping_add(self.offset);
+            match Known::read(id, obstacle) {
+                Ok(_) if usable.contains_key(&id) => {
                     complaints.push(format!("obstacle {} is left out: a second one of this id", obstacle.id));
                 }
                 Ok((known, problem)) => {
                     complaints.extend(problem.map(|problem| format!("obstacle {}: {problem}", obstacle.id)));
-                    usable.insert(known.id, known);
+                    usable.insert(id, News { stamp, known });
                 }
-                Err(reason) => complaints.push(format!("obstacle {} is left out: {reason}", obstacle.id)),
+                Err(reason) => {
+                    let before = self.known.iter().find(|news| news.known.id == id);
+                    let done = if before.is_some() { "stays where it was" } else { "is left out" };
+                    complaints.push(format!("obstacle {} {done}: {reason}", obstacle.id));
+                    kept.extend(before.map(|news| (id, news.clone())));
+                }
             }
         }
-        self.known = usable.into_values().collect();
-        complaints
+        kept.append(&mut usable);
+        (kept.into_values().collect(), complaints)
     }
 
     pub(super) fn silence(&self, at: Times) -> f64 {
@@ -120,8 +135,7 @@ impl Speaker {
 
     /// Its obstacles where they are at `at`.
     pub(super) fn at(&self, at: Times) -> impl Iterator<Item = Known> {
-        let age = self.stamp.map_or(0.0, |stamp| at.ros.seconds_since(stamp).clamp(0.0, CARRIED));
-        self.known.iter().map(move |known| known.moved(age))
+        self.known.iter().map(move |news| news.known.moved(at.ros.seconds_since(news.stamp).clamp(0.0, CARRIED)))
     }
 
     pub(super) fn len(&self) -> usize {

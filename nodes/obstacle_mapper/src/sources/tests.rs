@@ -67,6 +67,23 @@ fn what_cannot_be_used_is_named_and_the_rest_is_kept() {
 }
 
 #[test]
+fn an_obstacle_of_which_nonsense_is_told_stays_where_it_was() {
+    let mut sources = Sources::default();
+    let nowhere = |id| disc(id, f64::NAN, 0.0);
+    sources.take(now(0.0), [1; 16], &array(0.0, vec![disc(1, 0.0, 0.5), disc(2, 3.0, 0.0)]));
+    let complaints = sources.take(now(0.4), [1; 16], &array(0.4, vec![nowhere(1), disc(2, 4.0, 0.0)]));
+    assert!(complaints.len() == 1 && complaints[0].contains("obstacle 1 stays where it was"), "{complaints:?}");
+    assert_eq!(places(&sources, 0.4), [(1, 0.2), (2, 4.0)], "carried on from its own last news");
+    // None that can be used: nothing was told, also of those that are not named.
+    let complaints = sources.take(now(0.8), [1; 16], &array(0.8, vec![nowhere(1), nowhere(7)]));
+    assert!(complaints.len() == 2 && complaints[1].contains("obstacle 7 is left out"), "{complaints:?}");
+    assert_eq!(places(&sources, 2.0), [(1, 0.5), (2, 4.0)]);
+    assert!(sources.silence(now(2.0), 1, 1.0).is_some(), "nonsense alone is silence");
+    sources.take(now(2.0), [1; 16], &array(2.0, vec![]));
+    assert_eq!(places(&sources, 2.0), []);
+}
+
+#[test]
 fn messages_out_of_time_are_dropped() {
     let mut sources = Sources::default();
     let mut check = |at: f64, stamp: f64, expected: &str| {
