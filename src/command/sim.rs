@@ -43,10 +43,9 @@ const DIVERGED: u8 = 10;
 
 /// Runs a scenario file headless, or drives the node cores of a launch file in lock-step, faster than real time.
 ///
-/// Scenario files (config/scenarios, docs/scenarios.md) are the simulations of the theory; which of the two a file is, is told by its
-/// content. Of launch files:
-/// The same files that `trench launch` starts as processes. Two runs are equal byte for byte. Unless the launch file is
-/// told otherwise (render:=true), cameras give the discs a detector would find instead of pixels.
+/// Scenario files (config/scenarios, docs/scenarios.md) are the simulations of the theory, launch files those that `trench launch` starts as
+/// processes; which of the two a file is, is told by its content. Two runs are equal byte for byte. In runs of launch files cameras give the
+/// discs a detector would find instead of pixels, unless the file is told otherwise (render:=true).
 #[derive(Parser, Clone)]
 #[command(after_help = EXIT_CODES)]
 pub(crate) struct Arguments {

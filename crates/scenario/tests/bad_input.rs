@@ -164,6 +164,12 @@ fn numbers_beyond_everything() {
 
 #[test]
 fn timing() {
+    check(
+        "7.11.yaml",
+        "record_every: 0.05 ",
+        "record_every: 100.0 ",
+        &["record_every", "longer than the duration", "60"],
+    );
     let every = "step: 0.001";
     check(
         "7.11.yaml",
@@ -286,12 +292,26 @@ fn keys_that_would_do_nothing() {
         &["compared", "unknown key"],
     );
     check("4.6_square.yaml", "kind: launch", "kind: launch\ntolerance: 0.1", &["tolerance", "unknown key"]);
+    let moving = "kind: nearest_points\nsegment_motion: {velocity: [0.1, 0.0]}";
+    check("7.15.yaml", "kind: nearest_points", moving, &["segment_motion", "moves", "or compared"]);
     let text = file("7.15.yaml");
     let exponent = text.lines().find_map(|line| line.split("goal_exponent: ").nth(1)).unwrap();
     let exponent = exponent.split([',', '}']).next().unwrap();
     let text = text.replacen(&format!("goal_exponent: {exponent}"), "goal_exponent: 1.7", 1);
     let told = parse("7.15.yaml", &text).unwrap_err().to_string();
     assert!(told.contains("goal_exponent = 1.7"), "{told}");
+}
+
+/// What repels at obstacles is asked for where there are any.
+#[test]
+fn potentials_of_obstacles_are_for_obstacles() {
+    let text = file("7.11.yaml");
+    let (obstacles, potential) = (text.find("obstacles:").unwrap(), text.find("obstacle_potential:").unwrap());
+    let after = potential + text[potential..].find('\n').unwrap() + 1;
+    let without = [&text[..potential], &text[after..]].concat();
+    let told = parse("7.11.yaml", &without).unwrap_err().to_string();
+    assert!(told.contains("obstacle_potential"), "{told}");
+    parse("7.11.yaml", &[&text[..obstacles], &text[after..]].concat()).unwrap();
 }
 
 /// A file that is a scenario by all but its kind is one whose kind was forgotten, not a launch file.

@@ -22,7 +22,7 @@ use trench_formation::simulate::{
     Carriage, ChainScenario, ChainSimulation, Encroaching, Options, Remedies, ScenarioError, Sight, ZonedChainScenario,
 };
 use trench_formation::trench::AnyTrench;
-use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness};
+use trench_formation::zoning::{Edge, ObstaclePotential, Sharpness, Zoning};
 
 /// What robots that remember, or are bounded, have besides: the controllers' core simulates them.
 const BESIDES: [&str; 6] = ["remedies", "sidesteps", "limits", "safety", "recovery", "broken_links"];
@@ -90,10 +90,7 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
     let method = Method::Directed { direction: direction.map(unit), compensates: chain.law.compensates };
     let ZonedAttraction { trench, zoning, damping, leader_damping, .. } = chain.law;
     let law = NearestAttraction { trench, damping, leader_damping };
-    // Carrots are led by a quarter of zone 2, and there are no obstacles.
-    let (radii, full) = (zoning.radii(), zoning.full_acceleration());
-    let lead = 0.25 * (radii.rho_hat - radii.rho_underbar);
-    let potential = ObstaclePotential::new(0.0, lead, 1.0, Sharpness::Two, Edge::Continuous, full);
+    let potential = without_obstacles(map, &zoning)?;
     let scenario = ChainScenario {
         segment: curve,
         carriage: Carriage::parked(),
@@ -103,7 +100,7 @@ pub(super) fn directed(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErr
         zoning,
         obstacles: Vec::new(),
         clearance: 0.0,
-        potential: potential.map_err(|error| map.error("zoning", error.to_string(), "mend the radii"))?,
+        potential,
         seeking: SEEKING,
         encroaching: Encroaching::Nothing,
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
@@ -147,16 +144,22 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
     let (nodes, robots) = ranked(map, nodes, robots, team_goal, &Placed::new(&curve, carriage.at(0.0).0))?;
     let listed = listed(map.opt_list("obstacles")?)?;
     let options = options(map, timing, robots.len())?;
+    let zoning = zoning(map)?;
     let scenario = ChainScenario {
         segment: curve,
         carriage,
         team_goal,
         robots,
         law: law(map)?,
-        zoning: zoning(map)?,
+        zoning,
+        potential: match map.opt_map("obstacle_potential")? {
+            Some(given) => potential(&given)?,
+            None if listed.obstacles.is_empty() => without_obstacles(map, &zoning)?,
+            // Says that it is missing.
+            None => potential(&map.map("obstacle_potential")?)?,
+        },
         obstacles: listed.obstacles,
         clearance: not_negative(map, "clearance", 0.0)?,
-        potential: potential(map)?,
         seeking: seeking(map)?,
         encroaching: encroaching(map)?,
         remedies: map.opt_map("remedies")?.map(|map| remedies(&map)).transpose()?,
@@ -286,11 +289,19 @@ fn shapes(node: &Node, map: &Map<'_>) -> Result<Vec<Shape>, ConfigError> {
     Ok(found)
 }
 
+/// What repels robots where nothing does: by its reach, a quarter of zone 2, carrots lead them.
+fn without_obstacles(map: &Map<'_>, zoning: &Zoning) -> Result<ObstaclePotential, ConfigError> {
+    let (radii, full) = (zoning.radii(), zoning.full_acceleration());
+    let lead = 0.25 * (radii.rho_hat - radii.rho_underbar);
+    ObstaclePotential::new(0.0, lead, 1.0, Sharpness::Two, Edge::Continuous, full)
+        .map_err(|error| map.error("zoning", error.to_string(), "mend the radii"))
+}
+
+/// `obstacle_potential`.
 fn potential(map: &Map<'_>) -> Result<ObstaclePotential, ConfigError> {
-    let map = map.map("obstacle_potential")?;
-    let (pole, cut) = (not_negative(&map, "pole", 0.0)?, positive(&map, "cut")?);
-    let full = positive_or(&map, "full_acceleration", FULL)?;
-    let made = ObstaclePotential::new(pole, cut, positive(&map, "strength")?, sharpness(&map)?, edge(&map)?, full);
+    let (pole, cut) = (not_negative(map, "pole", 0.0)?, positive(map, "cut")?);
+    let full = positive_or(map, "full_acceleration", FULL)?;
+    let made = ObstaclePotential::new(pole, cut, positive(map, "strength")?, sharpness(map)?, edge(map)?, full);
     let made = made.map_err(|error| map.error("cut", error.to_string(), "mend the gaps"))?;
     map.finish()?;
     Ok(made)

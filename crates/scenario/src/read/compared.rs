@@ -23,6 +23,10 @@ pub(super) fn read(root: &Map<'_>, map: &Map<'_>, chain: &ChainScenario<AnyTrenc
         let problem = "is not the method by which the others are driven";
         return Err(root.error("method", problem, "write semi_implicit_euler"));
     }
+    if !chain.carriage.is_parked() {
+        let problem = "moves, and the methods go to a point that rests";
+        return Err(root.error("segment_motion", problem, "take velocity and turn_rate away, or compared"));
+    }
     let segment = Placed::new(&chain.segment, chain.carriage.at(0.0).0);
     let course = Course {
         goal: segment.nearest(robot.position).point,

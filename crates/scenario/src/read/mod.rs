@@ -128,6 +128,10 @@ fn timing(map: &Map<'_>, kind: Kind) -> Result<Timing, ConfigError> {
         Some(_) => common::positive(map, "record_every")?,
         None => step,
     };
+    if every > duration {
+        let problem = format!("is longer than the duration, {duration} s: nothing but the start would be recorded");
+        return Err(map.error("record_every", problem, format!("write a multiple of {step} up to {duration}")));
+    }
     let steps = libm::round(every / step);
     if steps < 1.0 || libm::fabs(steps * step - every) > 1e-6 * every {
         return Err(map.error("record_every", "is no multiple of the step", format!("write a multiple of {step}")));
