@@ -6,7 +6,9 @@ use crate::tick::Tick;
 use nalgebra::Isometry2;
 use trench_core::{RosTime, Times};
 use trench_formation::Vector2;
+use trench_formation::avoidance::behind_obstacles;
 use trench_formation::curve::Placed;
+use trench_formation::hull::ApparentObstacle;
 use trench_formation::kinematics::Pose;
 use trench_formation::laws::{GoalMotion, RigidMotion};
 
@@ -29,23 +31,30 @@ impl Tick {
             return None;
         }
         let frame = inputs.goals.frame(acts)?;
-        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, frame, robot.position(), speed))
+        let hulls = inputs.obstacles.as_ref().map(|heard| heard.message.at(acts)).unwrap_or_default();
+        let obstacles = (&hulls.apparent[..], dynamic.agent.potential.cut());
+        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, frame, robot.position(), speed, obstacles))
     }
 }
 
-/// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s).
+/// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s): behind obstacles on the segment that repel it
+/// within `reach` (m).
 fn point_ahead(
     way: &Way<'_>,
     (map_from_segment, motion): (Isometry2<f64>, RigidMotion),
     robot: Vector2<f64>,
     speed: f64,
+    (apparent, reach): (&[ApparentObstacle], f64),
 ) -> GoalMotion {
     let segment = Placed::new(way.curve, map_from_segment);
     let here = segment.nearest(robot);
+    let left = way.curve.nearest(way.team_goal).arc_length - here.arc_length;
+    if let Some(behind) = behind_obstacles(&segment, apparent, reach, (here.arc_length, left)) {
+        return motion.at(segment.at(behind).point);
+    }
     if here.distance > CLOSE * way.tolerance {
         return motion.at(here.point);
     }
-    let left = way.curve.nearest(way.team_goal).arc_length - here.arc_length;
     if left.abs() <= LEAD {
         return motion.at(segment.at(here.arc_length + left).point);
     }
@@ -58,6 +67,7 @@ fn point_ahead(
 mod tests {
     use super::*;
     use trench_formation::curve::{Curve, CurveShape};
+    use trench_formation::hull::{Obstacle, Shape, combine};
 
     #[test]
     fn first_to_the_segment_then_along_it_then_rest_at_the_team_goal() {
@@ -71,7 +81,7 @@ mod tests {
         };
         let frame = (Isometry2::translation(3.0, 1.0), RigidMotion { origin, ..RigidMotion::at_rest() });
         let check = |robot: [f64; 2], point: [f64; 2], speed: f64| {
-            let goal = point_ahead(&way, frame, robot.into(), 0.2);
+            let goal = point_ahead(&way, frame, robot.into(), 0.2, (&[], 0.3));
             let expected = Vector2::from(point);
             assert!((goal.position - expected).norm() < 1e-9, "{robot:?}: {goal:?}");
             assert!((goal.velocity - Vector2::new(speed, 0.0)).norm() < 1e-9, "{robot:?}: {goal:?}");
@@ -79,5 +89,10 @@ mod tests {
         check([1.5, 2.0], [1.5, 1.0], 0.06);
         check([1.5, 1.1], [1.8, 1.0], 0.26);
         check([2.9, 1.0], [3.0, 1.0], 0.06);
+        // Behind what stands on the segment there is a point that goes with it.
+        let disc = Obstacle { id: 1, shape: Shape::new(&[Vector2::new(2.0, 1.0)], 0.1).unwrap() };
+        let apparent = combine(&[disc], 0.0).unwrap();
+        let goal = point_ahead(&way, frame, Vector2::new(1.6, 1.1), 0.2, (&apparent, 0.3));
+        assert!((2.4..2.5).contains(&goal.position.x) && goal.velocity == Vector2::new(0.06, 0.0), "{goal:?}");
     }
 }

@@ -1,4 +1,5 @@
 //! Several robots at once, in the lanes of vector instructions, while nothing but their leaders is near them: of thousands, most.
+use super::attract::Tie;
 use super::surroundings::Moment;
 use super::{Agent, AgentSettings, Method};
 use crate::Vector2;
@@ -100,7 +101,9 @@ impl<T: Trench> Agent<T> {
         let feet = segment.nearest_abreast(position, agents.each_ref().map(|agent| agent.seeker.warm()))?;
         let seeking = &settings.seeking;
         let keeps = core::array::from_fn(|lane| {
-            side.alone[lane] && agents[lane].seeker.keeps(seeking, &agents[lane].fragments, feet.arc_length[lane])
+            side.alone[lane]
+                && agents[lane].tie == Tie::Whole
+                && agents[lane].seeker.keeps(seeking, &agents[lane].fragments, feet.arc_length[lane])
         });
         let mut told = feet.known & mask(keeps);
         // Zones.

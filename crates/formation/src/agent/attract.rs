@@ -18,8 +18,21 @@ pub(super) struct Attracted {
     pub(super) place: Option<Vector2<f64>>,
     /// Distance from it, m.
     pub(super) deviation: f64,
-    /// Whether a remedy leads the robot: it does without its leader's attraction then, which would hold it back.
-    pub(super) led: bool,
+    /// How its leader draws it.
+    pub(super) tie: Tie,
+}
+
+/// How a leader draws the robot behind it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Tie {
+    /// By Psi.
+    #[default]
+    Whole,
+    /// By the trench, into the neutral zone: a remedy has led the robot away from where Psi would have held it, or it comes back to its team by
+    /// itself. From as far as it may be now, the full acceleration of zone 5 would drive it through whatever stands between.
+    Gentle,
+    /// Not at all: a remedy leads the robot, and the attraction would hold it back.
+    Loose,
 }
 
 impl<T: Trench> Agent<T> {
@@ -38,7 +51,7 @@ impl<T: Trench> Agent<T> {
                 Sought::Point(foot) => (Drawn::To(foot), moment.motion.at(foot.point)),
                 Sought::Tie | Sought::NoFragment => {
                     let attracting = Attracting { foot: moment.motion.at(robot), draws: false };
-                    return Attracted { attracting, foot: None, place: None, deviation: f64::INFINITY, led: false };
+                    return Attracted { attracting, foot: None, place: None, deviation: f64::INFINITY, tie: self.tie };
                 }
             },
         };
@@ -61,8 +74,15 @@ impl<T: Trench> Agent<T> {
             (Asked::Attraction, Drawn::To(foot)) => Some(foot),
             _ => None,
         };
-        let led = matches!(asked, Asked::Point(_));
-        Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation, led }
+        let apart = leader.map(|leader| (leader.position - robot).norm());
+        let is_back = apart.is_none_or(|apart| apart <= self.settings.zoning.radii().rho);
+        self.tie = match (asked, self.tie) {
+            (Asked::Point(_), _) => Tie::Loose,
+            _ if leader.is_none() && goal.is_some() => Tie::Gentle,
+            (_, Tie::Loose | Tie::Gentle) if !is_back => Tie::Gentle,
+            _ => Tie::Whole,
+        };
+        Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation, tie: self.tie }
     }
 
     #[inline(always)]

@@ -1,4 +1,5 @@
 //! One robot's controller from tick to tick.
+use super::attract::Tie;
 use super::encroach::Encroachers;
 use super::law::Sum;
 use super::remedy::Remedy;
@@ -23,6 +24,8 @@ pub struct Agent<T> {
     pub(super) remedy: Option<Box<Remedy>>,
     pub(super) fragments: Fragments,
     pub(super) encroachers: Option<Box<Encroachers>>,
+    /// How its leader draws it.
+    pub(super) tie: Tie,
     /// Whether it has come to its place.
     pub(super) arrived: bool,
     /// Time of the last action, s.
@@ -35,7 +38,18 @@ impl<T: Trench> Agent<T> {
     pub fn new(settings: AgentSettings<T>) -> Self {
         let (seeker, fragments) = (Seeker::default(), Fragments::default());
         let settings = Arc::new(settings);
-        Self { settings, seeker, remedy: None, fragments, encroachers: None, arrived: false, last: None, sensed: None }
+        let tie = Tie::default();
+        Self {
+            settings,
+            seeker,
+            remedy: None,
+            fragments,
+            encroachers: None,
+            tie,
+            arrived: false,
+            last: None,
+            sensed: None,
+        }
     }
 
     /// What it was made with.

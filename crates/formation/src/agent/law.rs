@@ -1,5 +1,5 @@
 //! What a robot's law says, term by term.
-use super::attract::Attracted;
+use super::attract::{Attracted, Tie};
 use super::surroundings::Moment;
 use super::{Agent, Forces, Method, Powers, Surroundings, Values};
 use crate::Vector2;
@@ -94,7 +94,8 @@ impl<T: Trench> Agent<T> {
         (robot, leader): (PointState, Option<PointState>),
         attracted: &Attracted,
     ) -> Sum {
-        let mut sum = match (self.settings.method, &attracted.foot, leader) {
+        let foot = attracted.foot.as_ref().filter(|_| attracted.tie == Tie::Whole);
+        let mut sum = match (self.settings.method, foot, leader) {
             (Method::Directed { direction, compensates }, Some(foot), Some(leader)) => {
                 let direction = direction.map(|direction| moment.segment.direction_in_map(direction));
                 self.directed(around, moment, (robot, leader), (direction, compensates), foot)
@@ -144,9 +145,10 @@ impl<T: Trench> Agent<T> {
             sum.add_turned(By::Robot, self.sidestepped(push, target, None), there.velocity - still, sliding);
         }
         if let Some(leader) = leader {
-            let push = match attracted.led {
-                true => Push::of_robot_ahead(&settings.zoning, position, leader.position),
-                false => Push::of_leader(&settings.zoning, position, leader.position),
+            let push = match attracted.tie {
+                Tie::Whole => Push::of_leader(&settings.zoning, position, leader.position),
+                Tie::Gentle => Push::of_leader_by(&settings.law.trench, &settings.zoning, position, leader.position),
+                Tie::Loose => Push::of_robot_ahead(&settings.zoning, position, leader.position),
             };
             sum.add(By::Leader, push, leader.velocity - still);
         }

@@ -5,6 +5,7 @@
 //! does not (Fig. 7.13). [`escape`] leads out of a combined hull that has closed around a robot. [`ComparedRepulsion`] is what 7.8
 //! compares with, [`GoalPotential`] and [`VelocityPotential`] what 5.5 does.
 mod arc;
+mod behind;
 mod compared;
 mod escape;
 mod goal_potentials;
@@ -13,6 +14,7 @@ mod lines;
 mod watch;
 
 pub use arc::auxiliary_arc;
+pub use behind::behind_obstacles;
 pub use compared::ComparedRepulsion;
 pub use escape::{escape, way_round};
 pub use goal_potentials::{GoalPotential, VelocityPotential};

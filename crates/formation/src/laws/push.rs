@@ -2,6 +2,7 @@
 use super::zoned::direction;
 use crate::Vector2;
 use crate::hull::Approach;
+use crate::trench::Trench;
 use crate::zoning::{ObstaclePotential, Zoning};
 
 /// The gradient and value of one potential between a robot and something it keeps from, or keeps near to.
@@ -23,6 +24,16 @@ impl Push {
             return Self { force: Vector2::zeros(), value: 0.0 };
         }
         Self { force: zoning.force(distance) * towards, value: zoning.value(distance) }
+    }
+
+    /// Psi of the leader, but for its attraction: that of the trench, from the neutral zone on.
+    pub fn of_leader_by(trench: &impl Trench, zoning: &Zoning, robot: Vector2<f64>, leader: Vector2<f64>) -> Self {
+        let (towards, distance) = direction(leader - robot);
+        let beyond = distance - zoning.radii().rho;
+        if beyond <= 0.0 {
+            return Self::of_robot_ahead(zoning, robot, leader);
+        }
+        Self { force: trench.slope(beyond) * towards, value: trench.value(beyond) }
     }
 
     /// Psi_hat of another robot ahead in the chain: repulsive in zone 2.

@@ -145,8 +145,9 @@ impl<T: Trench> View<'_, T> {
         if let Some((speed, goal)) = self.scenario.options.recovery.zip(self.scenario.team_goal).filter(|_| !hears) {
             let segment = Placed::new(&self.scenario.segment, around.map_from_segment);
             let others = (around.ahead, self.scenario.zoning.radii().rho_hat);
-            around.goal =
-                Some(towards_goal(&segment, &around.motion, self.seen[index].position, (goal, speed), others));
+            let obstacles = (self.apparent, self.scenario.potential.cut());
+            let robot = self.seen[index].position;
+            around.goal = Some(towards_goal(&segment, &around.motion, robot, (goal, speed), others, obstacles));
         }
         around.leader = index
             .checked_sub(1)

@@ -180,8 +180,8 @@ impl<T: Trench + Send + Sync> ChainSimulation<T> {
     /// Who hears whom until the next tick.
     fn look_for_links(&mut self) {
         let (time, radii, options) = (self.time(), self.scenario.zoning.radii(), &self.scenario.options);
-        // Who comes to its leader by itself does so as far as the neutral zone: from rho_bar on zone 5 would draw it at full acceleration.
-        let back = options.recovery.map_or(radii.rho_bar, |_| radii.rho);
+        // Who comes to its leader by itself follows it from where the margin of the link, zone 5, is behind it: it hears it for long then.
+        let back = options.recovery.map_or(radii.rho_bar, |_| radii.rho_check);
         self.links.look(time, &self.seen, (radii.rho_bar, back), &options.broken);
     }
 

@@ -1,7 +1,9 @@
 //! Which robots of a chain hear their leaders, and where those go that do not (Remarks 6.2.1 and 8.4.1).
 use super::{BrokenLink, QueueChange, QueueEvent};
 use crate::Vector2;
+use crate::avoidance::behind_obstacles;
 use crate::curve::Placed;
+use crate::hull::ApparentObstacle;
 use crate::kinematics::PointState;
 use crate::laws::{GoalMotion, RigidMotion};
 
@@ -14,12 +16,14 @@ pub(super) struct Links {
     /// Indices, in order: mostly none.
     unheard: Vec<usize>,
     now: Vec<usize>,
+    /// Those of them whose leaders are too far off.
+    beyond: Vec<usize>,
     changes: Vec<QueueChange>,
 }
 
 impl Links {
-    /// Looks at the links at `time` (s): they reach `reach` (m), and some are `broken` for a time. Who has lost its leader follows it again
-    /// from `back` (m) on.
+    /// Looks at the links at `time` (s): they reach `reach` (m), and some are `broken` for a time. Whose leader was too far off follows it
+    /// again from `back` (m) on, whose link was broken as soon as it is whole.
     pub(super) fn look(&mut self, time: f64, robots: &[PointState], (reach, back): (f64, f64), broken: &[BrokenLink]) {
         let is_broken = |index: usize| broken.iter().any(|link| link.robot == index && link.holds(time));
         let far =
@@ -30,8 +34,13 @@ impl Links {
         if self.unheard.is_empty() && broken.is_empty() && !parted() {
             return;
         }
+        let before = core::mem::take(&mut self.beyond);
         for (pair, index) in robots.windows(2).zip(1..) {
-            if far(pair, if self.hears(index) { reach } else { back }) || (!broken.is_empty() && is_broken(index)) {
+            let is_far = far(pair, if before.binary_search(&index).is_ok() { back } else { reach });
+            if is_far {
+                self.beyond.push(index);
+            }
+            if is_far || (!broken.is_empty() && is_broken(index)) {
                 self.now.push(index);
             }
         }
@@ -63,13 +72,14 @@ impl Links {
 
 /// The goal point of a robot at `robot` (m) that goes to the segment and along it to `goal` (m, frame of the segment), at `speed` (m/s): where
 /// it is nearest to the segment, moving on as long as none of the robots `ahead` is on its way within `apart` (m): their repulsion is bounded, and who
-/// is drawn along would come through it.
+/// is drawn along would come through it. Where apparent obstacles that repel within `reach` (m) are on the segment, a point that rests behind them.
 pub(super) fn towards_goal(
     segment: &Placed<'_>,
     motion: &RigidMotion,
     robot: Vector2<f64>,
     (goal, speed): (Vector2<f64>, f64),
     (ahead, apart): (&[PointState], f64),
+    (apparent, reach): (&[ApparentObstacle], f64),
 ) -> GoalMotion {
     let (foot, curve) = (segment.nearest(robot), segment.curve());
     let mut left = curve.nearest(goal).arc_length - foot.arc_length;
@@ -77,6 +87,9 @@ pub(super) fn towards_goal(
         left -= curve.length() * libm::round(left / curve.length());
     }
     let still = motion.at(foot.point);
+    if let Some(behind) = behind_obstacles(segment, apparent, reach, (foot.arc_length, left)) {
+        return motion.at(segment.at(behind).point);
+    }
     let on = speed * (left / SLOWING).clamp(-1.0, 1.0) * foot.tangent;
     let is_before = |other: &PointState| {
         let way = other.position - robot;
@@ -103,6 +116,7 @@ mod tests {
         assert_eq!(look(0.0, -11.0), [true, true, true]);
         assert_eq!(look(1.0, -11.1), [true, true, false]);
         assert_eq!(look(2.0, -12.0), [true, false, false]);
+        // Between where it ends and where it begins again: the broken one hears, the lost one does not.
         assert_eq!(look(3.0, -11.0), [true, true, false]);
         assert_eq!(look(4.0, -10.5), [true, true, true]);
         let told: Vec<_> = links.changes().iter().map(|change| (change.time, change.robot, change.event)).collect();

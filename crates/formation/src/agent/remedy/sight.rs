@@ -104,13 +104,26 @@ impl Sight<'_> {
         }
     }
 
-    /// A way to what draws the robot; to a place of its own, if there is none to a point of the segment; else a rest.
+    /// A way to what draws the robot; to a place of its own, if there is none to a point of the segment, or zoning would not let it stay there;
+    /// else a rest.
     pub(super) fn led(&self, robot: Vector2<f64>, drawn: Drawn, wary: bool) -> State {
         let own = || matches!(drawn, Drawn::To(_)).then(|| self.led_to_place(robot, wary)).flatten();
+        if !self.may_stay(drawn.point())
+            && let Some(led) = own()
+        {
+            return led;
+        }
         let rest = || State::Suspended { until: self.time() + self.remedies.watch.patience, within: None };
         let to_point = |wary: bool| self.way(robot, drawn.point(), (false, wary));
         let far_round = || (!wary && self.around.motion.rests()).then(|| to_point(true)).flatten();
         to_point(wary).or_else(own).or_else(far_round).unwrap_or_else(rest)
+    }
+
+    /// Whether a point lies in nobody's zone 2, nor in the zone 4 of a leader that has arrived. Nearer to the neutral zone than the watch's radius
+    /// it is as good as there.
+    pub(super) fn may_stay(&self, point: Vector2<f64>) -> bool {
+        let radius = self.remedies.watch.radius;
+        self.teammate_gap(point) >= -radius && self.leader_gap(point) <= radius
     }
 
     /// A way to the nearest place where the robot can rest; nothing if there is none.
