@@ -228,9 +228,16 @@ impl Remedy {
                         way.iter_mut().for_each(|corner| *corner += by);
                         sight.lead(robot, carrot, way);
                         // A teammate may stand where the way ends.
-                        let waits = sight.approach(index, robot).gap > 0.0 && sight.waits(robot, carrot);
-                        let deviation = (target - robot).norm();
-                        held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                        let gap = sight.approach(index, robot).gap;
+                        let (waits, deviation) = (gap > 0.0 && sight.waits(robot, carrot), (target - robot).norm());
+                        let is_at_end = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
+                        if is_at_end && gap < 0.0 {
+                            // The hull has grown since: more of its members is known.
+                            *self = Self::default();
+                            self.choose(sight, robot, drawn);
+                        } else {
+                            held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                        }
                     }
                     out => {
                         *self = Self::default();
