@@ -231,7 +231,7 @@ impl Remedy {
                         let gap = sight.approach(index, robot).gap;
                         let (waits, deviation) = (gap > 0.0 && sight.waits(robot, carrot), (target - robot).norm());
                         let is_at_end = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
-                        if is_at_end && gap < 0.0 {
+                        if is_at_end {
                             // The hull has grown since: more of its members is known.
                             *self = Self::default();
                             self.choose(sight, robot, drawn);

@@ -171,9 +171,14 @@ impl Sight<'_> {
     fn way(&self, robot: Vector2<f64>, target: Vector2<f64>, (own, wary): (bool, bool)) -> Option<State> {
         let radii = self.zoning.radii();
         let apart = 0.5 * (radii.rho_underbar + radii.rho_hat);
+        // Who stands nearer to a teammate may leave it.
+        let is_off = |other: Vector2<f64>, point: Vector2<f64>| {
+            let distance = (other - point).norm();
+            distance >= apart || (distance >= (other - robot).norm() && (point - robot).norm() <= apart)
+        };
         let with = |(room, aside): (f64, f64)| {
             let is_free = |point: Vector2<f64>| {
-                self.teammates().all(|other| (other - point).norm() >= apart)
+                self.teammates().all(|other| is_off(other, point))
                     && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= room)
             };
             way_round(robot, target, (0.25 * apart, aside), is_free)
