@@ -28,8 +28,8 @@ pub(super) enum Tie {
     /// By Psi.
     #[default]
     Whole,
-    /// By the trench, into the neutral zone: a remedy has led the robot away from where Psi would have held it, or it comes back to its team by
-    /// itself. From as far as it may be now, the full acceleration of zone 5 would drive it through whatever stands between.
+    /// By the trench, to where Psi would pull less than that: a remedy has led the robot away from where Psi would have held it, or it comes
+    /// back to its team by itself. From as far as it may be now, the full acceleration of zone 5 would drive it through whatever stands between.
     Gentle,
     /// Not at all: a remedy leads the robot, and the attraction would hold it back.
     Loose,
@@ -74,8 +74,13 @@ impl<T: Trench> Agent<T> {
             (Asked::Attraction, Drawn::To(foot)) => Some(foot),
             _ => None,
         };
-        let apart = leader.map(|leader| (leader.position - robot).norm());
-        let is_back = apart.is_none_or(|apart| apart <= self.settings.zoning.radii().rho);
+        // Where Psi pulls less than the trench would, it does no harm.
+        let (zoning, trench) = (&self.settings.zoning, &self.settings.law.trench);
+        let is_back = leader.is_none_or(|leader| {
+            let apart = (leader.position - robot).norm();
+            let beyond = apart - zoning.radii().rho;
+            beyond <= 0.0 || zoning.force(apart) <= trench.slope(beyond)
+        });
         self.tie = match (asked, self.tie) {
             (Asked::Point(_), _) => Tie::Loose,
             _ if leader.is_none() && goal.is_some() => Tie::Gentle,
