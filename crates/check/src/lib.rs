@@ -6,6 +6,8 @@
 mod approach;
 mod bounds;
 mod chain;
+mod chatter;
+mod chatter_of_scenario;
 mod clearance;
 mod controller;
 mod damping;
@@ -25,6 +27,9 @@ mod queue_of_scenario;
 mod report;
 mod room;
 mod scenario;
+mod separation;
+mod separation_of_goals;
+mod separation_of_queue;
 mod standing;
 mod starts;
 mod starts_of_scenario;

@@ -11,6 +11,8 @@ use crate::passing::{fragments_at, room_on_the_way};
 use crate::potential::potential;
 use crate::queue_of_scenario::{goal_of_queue, queue};
 use crate::room::room;
+use crate::separation_of_goals::separation_of_goals;
+use crate::separation_of_queue::separation_of_queue;
 use crate::starts_of_scenario::{starts_of_directed, starts_of_nearest};
 use crate::step_of_scenario::step;
 use crate::stiffness::steepest;
@@ -77,11 +79,15 @@ fn of_task(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
                 let stopping = bounds.and_then(|bounds| stopping_of_goals(&name, &bounds, &task.robots));
                 [potential(&name, &law.trench, RANGE), damped].into_iter().chain(able).chain(stopping)
             })
+            .chain(feasibility(subject, scenario))
             .collect()
         }
         Task::Directed(task) => directed(subject, task),
         Task::Nearest(task, _) => nearest(subject, task, scenario.timing.duration),
-        Task::Queue(task) => queue(subject, task).into_iter().chain(stopping_of_queue(subject, &task.queue)).collect(),
+        Task::Queue(task) => {
+            let stopping = stopping_of_queue(subject, &task.queue);
+            core::iter::once(queue(subject, task)).chain(feasibility(subject, scenario)).chain(stopping).collect()
+        }
         Task::Launch(_) => Vec::new(),
     }
 }
@@ -167,17 +173,26 @@ fn directions<'a>(
     robots.enumerate().skip(1).map(of).collect()
 }
 
-/// What a team cannot do from where it begins: somebody is out of reach of its leader, the segment has too few places, or its team goal is out of
-/// reach of all of it. Nothing else is looked at.
+/// What a team cannot do from where it begins: somebody is out of reach of its leader, the segment has too few places, places are too near to
+/// each other, or its team goal is out of reach of all of it. Nothing else is looked at.
 pub fn infeasible(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
-    let mut verdicts = match &scenario.task {
-        Task::Directed(task) => feasibility_of_directed(subject, task),
-        Task::Nearest(task, _) => feasibility_of_nearest(subject, task, scenario.timing.duration),
-        Task::Queue(task) => goal_of_queue(subject, task).into_iter().collect(),
-        Task::Regulating(_) | Task::GoalTracking(_) | Task::Launch(_) => Vec::new(),
-    };
+    let mut verdicts = feasibility(subject, scenario);
     verdicts.retain(|verdict| !verdict.holds);
     verdicts
+}
+
+fn feasibility(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
+    let duration = scenario.timing.duration;
+    match &scenario.task {
+        Task::Directed(task) => feasibility_of_directed(subject, task),
+        Task::Nearest(task, _) => feasibility_of_nearest(subject, task, duration),
+        Task::Queue(task) => {
+            let separation = separation_of_queue(subject, &task.queue, scenario.tolerance);
+            goal_of_queue(subject, task).into_iter().chain(separation).collect()
+        }
+        Task::GoalTracking(task) => separation_of_goals(subject, task, duration, scenario.tolerance),
+        Task::Regulating(_) | Task::Launch(_) => Vec::new(),
+    }
 }
 
 fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {

@@ -1,16 +1,17 @@
 //! Whether the step of a scenario is short enough for its laws.
 
 use crate::Verdict;
+use crate::chatter_of_scenario::{Felt, with_chatter};
 use crate::scenario::{RANGE, least_sine, named};
 use crate::step::Stiff;
 use crate::verdict::number;
 use crate::walls_of_scenario::least_turn;
 use trench_formation::kinematics::Polar;
-use trench_formation::laws::PointLaw;
+use trench_formation::laws::{GoalTracking, PointLaw};
 use trench_formation::simulate::Integration;
 use trench_formation::trench::{Damping, Trench};
 use trench_formation::zoning::{ObstaclePotential, Zoning};
-use trench_scenario::{GoalLaw, Regulating, RegulatingCase, Scenario, Task};
+use trench_scenario::{GoalCase, GoalLaw, Regulating, RegulatingCase, Scenario, Task};
 
 const EQUATION: &str = "|lambda| h within the method's stability: 2.785 (rk4, real), h k + h^2 K/2 < 2 (semi-implicit Euler), h < 2/k and 2 k/K (held)";
 /// Distances at which laws are looked at, evenly in their logarithm, from a micrometre on.
@@ -23,26 +24,39 @@ type Named = (String, Stiff);
 pub(crate) fn step(subject: &str, scenario: &Scenario) -> Vec<Verdict> {
     let (h, method) = (scenario.timing.step, scenario.timing.integration);
     let of = |name: &str, laws: Vec<Named>, walls: Option<String>| judged(name, (h, method), laws, walls);
+    let chatters = |verdict, felt: &Felt<'_>| with_chatter(verdict, felt, scenario.tolerance, (h, method));
     let mut verdicts: Vec<Verdict> = match &scenario.task {
         Task::Regulating(task) => {
             let cases = task.cases.iter();
             cases.filter_map(|case| of(&named(subject, &case.name), rates(task, case), None)).collect()
         }
         Task::GoalTracking(task) => {
-            let cases = task.cases.iter();
-            cases.filter_map(|case| of(&named(subject, &case.name), of_goal(&case.law), None)).collect()
+            let judged = |case: &GoalCase| {
+                let verdict = of(&named(subject, &case.name), of_goal(&case.law), None)?;
+                let GoalLaw::Trench(GoalTracking { trench, damping }) = &case.law else { return Some(verdict) };
+                let damping = |x: f64| damping.coefficient(x);
+                let limits = case.bounds.map(|bounds| bounds.limits);
+                Some(chatters(verdict, &Felt { trench, damping: &damping, sine: 1.0, limits }))
+            };
+            task.cases.iter().filter_map(judged).collect()
         }
         Task::Directed(task) => {
             let (law, sine) = (&task.chain.law, least_turn(&task.chain));
             let damping = law.damping + law.leader_damping;
             let walls = walls((h, method), damping, &law.zoning, None);
-            of(subject, of_trench(&law.trench, |_| damping, sine), walls).into_iter().collect()
+            let felt = Felt { trench: &law.trench, damping: &|_| law.damping, sine, limits: None };
+            let verdict = of(subject, of_trench(&law.trench, |_| damping, sine), walls);
+            verdict.map(|verdict| chatters(verdict, &felt)).into_iter().collect()
         }
         Task::Nearest(task, _) => {
-            let damping = task.law.damping + task.law.leader_damping;
+            let (law, sine) = (&task.law, least_sine(task));
+            let damping = law.damping + law.leader_damping;
             let obstacles = (!task.obstacles.is_empty()).then_some(&task.potential);
             let walls = walls((h, method), damping, &task.zoning, obstacles);
-            of(subject, of_trench(&task.law.trench, |_| damping, least_sine(task)), walls).into_iter().collect()
+            let limits = task.options.limits;
+            let felt = Felt { trench: &law.trench, damping: &|_| law.damping, sine, limits };
+            let verdict = of(subject, of_trench(&law.trench, |_| damping, sine), walls);
+            verdict.map(|verdict| chatters(verdict, &felt)).into_iter().collect()
         }
         Task::Queue(task) => {
             let law = task.queue.law;
@@ -101,8 +115,7 @@ fn of_trench(trench: &dyn Trench, damping: impl Fn(f64) -> f64, sine: f64) -> Ve
     distances.map(of).filter(|(_, stiff)| stiff.largest() > 0.0).collect()
 }
 
-/// Whether it is a corner where it is least: no step is short enough there, and robots chatter about their points by as much as one makes
-/// of them, but no more.
+/// Whether it is a corner where it is least: no step is short enough there, and how far robots chatter is told beside.
 fn kinks(trench: &dyn Trench) -> bool {
     let bottom = trench.slopes(0.0);
     bottom.left != bottom.right

@@ -61,7 +61,11 @@ impl ChainPlaces {
         Ok((0..self.robots).map(place).map(|end| Place { start: end, end }).collect())
     }
 
-    fn fits(self, curve: &Curve, room: f64) -> Result<(), NoRoom> {
+    /// Whether they fit on `room` (m) of a segment on one side of the first; on a closed one round it.
+    ///
+    /// # Errors
+    /// Where the segment is too short.
+    pub fn fits(self, curve: &Curve, room: f64) -> Result<(), NoRoom> {
         let gaps = self.robots.saturating_sub(1);
         let chain = self.spacing * f64::from(gaps);
         if !curve.is_closed() {

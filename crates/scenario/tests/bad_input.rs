@@ -86,6 +86,8 @@ fn robots() {
         &["robots[0]", "reaches 0.3", "into obstacle 1"],
     );
     told("9.2_bounded.yaml", "body_radius: 0.5", "body_radius: 2.0", &["robots[2]", "two bodies need 4 m"]);
+    // A body is one whoever names it.
+    told("7.10_fragments.yaml", "body_radius: 0.5 ", "body_radius: 2.0 ", &["robots[2]", "two bodies need 4 m"]);
     let one = "- {position: [1.0, 9.0]}";
     check("7.11.yaml", &format!("robots:\n{one}"), "robots: []", &["robots", "is empty", "at least one"]);
     // r9 and r10 are lowest on the diagonal: a segment that begins farther up has no point of attraction for them.

@@ -156,9 +156,10 @@ impl<T> ChainScenario<T> {
         combine_unless(obstacles, self.clearance, |a, b| wall(a).is_some_and(|of| wall(b) == Some(of)))
     }
 
-    /// Of the robots' bodies, m; 0 where nothing names one.
+    /// Of the robots' bodies, m, by the safety filter or else by what encroaches; 0 where neither names one.
     pub(super) fn body_radius(&self) -> f64 {
-        self.options.safety.map_or(0.0, |safety| safety.radius)
+        let named = self.options.safety.map(|safety| safety.radius);
+        named.or(self.encroaching.robot_radius()).unwrap_or(0.0)
     }
 
     /// Whether any obstacle moves.

@@ -8,6 +8,7 @@ use trench_formation::kinematics::PointState;
 use trench_formation::laws::QueueFollowing;
 use trench_formation::safety::Stopping;
 use trench_formation::simulate::{BrokenLink, Integration, QueueRobotScenario, QueueScenario, Quitting, Recovery};
+use trench_plan::{ChainPlaces, NoRoom};
 
 pub(super) fn read(map: &Map<'_>, timing: &Timing) -> Result<Queue, ConfigError> {
     let (shape, segment) = trench_plan::segment(map.node("segment")?)?;
@@ -32,16 +33,24 @@ pub(super) fn read(map: &Map<'_>, timing: &Timing) -> Result<Queue, ConfigError>
         robots,
     };
     checked(map, timing, &queue)?;
-    let (first, needed) = (queue.first_place(), queue.spacing * (queue.robots.len() - 1) as f64);
-    let before = if queue.segment.is_closed() { queue.segment.length() } else { first - queue.segment.domain().0 };
-    if needed > before {
-        let count = queue.robots.len();
-        let problem = format!(
-            "leaves no places for {count} robots: they need {needed} m before the target, there are {before} m"
-        );
-        return Err(map.error("spacing", problem, "lengthen the segment, or space them more closely"));
-    }
+    has_places(map, &queue)?;
     Ok(Queue { queue, segment: shape })
+}
+
+/// Whether all robots that the file names, those that join later too, have places before the target, or round a closed segment.
+fn has_places(map: &Map<'_>, queue: &QueueScenario) -> Result<(), ConfigError> {
+    let count = queue.robots.len();
+    let places = ChainPlaces { robots: u32::try_from(count).unwrap_or(u32::MAX), spacing: queue.spacing };
+    let before = queue.first_place() - queue.segment.domain().0;
+    let Err(no_room) = places.fits(&queue.segment, before) else { return Ok(()) };
+    let they_need = match no_room {
+        NoRoom::Behind { chain, room } => format!("they need {chain} m before the target, there are {room} m"),
+        NoRoom::Round { chain, room } => format!(
+            "round the closed segment they need {chain} m, from the last place on to the first one, too, and it is {room:.3} m long"
+        ),
+    };
+    let problem = format!("leaves no places for {count} robots: {they_need}");
+    Err(map.error("spacing", problem, "lengthen the segment, or space them more closely"))
 }
 
 /// K, or the poles that it gives.

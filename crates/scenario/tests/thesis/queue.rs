@@ -86,6 +86,13 @@ fn queues_that_are_none_are_refused() {
         ("8.4_queue.yaml", "poles: [-1.0, -2.0]", "poles: [-1.0, 0.0]", "not Hurwitz"),
         ("8.4_queue.yaml", "poles: [-1.0, -2.0]", "position_gain: 2.0, velocity_gain: 0.0", "law.velocity_gain"),
         ("8.4_queue.yaml", "spacing: 4.0", "spacing: 14.0", "leaves no places for 6 robots"),
+        // Five gaps of 4 m fit a circle of 22 m, and the last place is 2 m from the first.
+        (
+            "8.4_queue.yaml",
+            "{kind: graph, expression: \"3*sin(0.2*x)\", from: 0.0, to: 40.0}",
+            "{kind: circle, centre: [36.5, 2.968], radius: 3.5}",
+            "spacing = 4.0: leaves no places for 6 robots: round the closed segment they need 24 m",
+        ),
         ("8.4.1_broken_links.yaml", "robot: r6", "robot: r9", "r9"),
         ("8.4.1_broken_links.yaml", "from: 2.0, to: 15.0", "from: 15.0, to: 2.0", "is not after `from`"),
         (
