@@ -9,6 +9,7 @@ mod chain;
 mod chatter;
 mod chatter_of_scenario;
 mod clearance;
+mod connection;
 mod controller;
 mod damping;
 mod damping_of_scenario;

@@ -1,6 +1,7 @@
 //! A scenario file: gains, potentials, zones, directions of attraction, room, chains.
 
 use crate::clearance::clearance;
+use crate::connection::connection;
 use crate::damping::chain_damping;
 use crate::damping_of_scenario::{damped_directed, damped_nearest};
 use crate::goal::goal;
@@ -29,7 +30,6 @@ use trench_formation::kinematics::PointState;
 use trench_formation::laws::{Capability, Family, Robust};
 use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::{AnyDamping, AnyTrench, Damping, SaturatedDamping};
-use trench_formation::zoning::Radii;
 use trench_scenario::{ChosenLaw, Directed, GoalLaw, Scenario, Task};
 
 /// Trenches are looked at up to this distance, m.
@@ -199,17 +199,17 @@ fn feasibility_of_directed(subject: &str, task: &Directed) -> Vec<Verdict> {
     let (radii, robots) = (task.chain.law.zoning.radii(), &task.chain.robots);
     let room = room(subject, &task.curve, &[task.curve.domain()], robots.len(), radii.rho_hat);
     let goal = goal(subject, &task.curve, task.chain.team_goal, radii, robots.len());
-    [room, connection(subject, radii, robots, false)].into_iter().chain(goal).collect()
+    [room, connection(subject, radii, robots, None)].into_iter().chain(goal).collect()
 }
 
 fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
     let radii = task.zoning.radii();
     let room = fragments_at(task, 0.0)
         .map(|fragments| room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat));
-    let recovers = task.options.recovery.is_some();
     let later = room_on_the_way(subject, task, duration);
     let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));
     let kept_off = goal_among_obstacles(subject, task, body_radius(task).unwrap_or(0.0), duration);
+    let recovers = task.options.recovery.is_some().then_some(task);
     let connection = connection(subject, radii, &task.robots, recovers);
     room.into_iter().chain(later).chain([connection]).chain(goal).chain(kept_off).collect()
 }
@@ -234,28 +234,4 @@ pub(crate) fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
 /// Radius of the robots' bodies, where the scenario says one.
 fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
     task.options.safety.map(|safety| safety.radius).or(task.encroaching.robot_radius())
-}
-
-/// Whether every robot begins within reach of its leader, or comes to it by itself.
-fn connection(subject: &str, radii: &Radii, robots: &[PointState], recovers: bool) -> Verdict {
-    let distance = |pair: &[PointState]| (pair[1].position - pair[0].position).norm();
-    let longest = robots.windows(2).map(distance).fold(0.0, f64::max);
-    let lost = robots.windows(2).position(|pair| !radii.is_coordinated(distance(pair)));
-    let limit = number(radii.rho_bar);
-    let too_near = robots.windows(2).any(|pair| distance(pair) < radii.rho_underbar);
-    let finding = match lost {
-        Some(index) if recovers && !too_near => format!(
-            "r{} begins {} m from its leader, beyond the {limit} m that links reach, and comes to it along the segment (Remark 6.2.1)",
-            index + 2,
-            number(distance(&robots[index..index + 2]))
-        ),
-        None => format!("no robot begins more than {} m from its leader, links reach {limit} m", number(longest)),
-        Some(index) => format!(
-            "r{} begins {} m from its leader, but links reach {limit} m: move it nearer, or order the chain anew",
-            index + 2,
-            number(distance(&robots[index..index + 2]))
-        ),
-    };
-    let holds = lost.is_none() || (recovers && !too_near);
-    Verdict::new("connection", subject, holds, finding, "rho_underbar <= d <= rho_bar for all pairs (6.2.2)")
 }

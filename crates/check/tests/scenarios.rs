@@ -525,3 +525,37 @@ fn targets_of_queues_are_within_reach() {
     let far = of("target: [400.0, 2.968]").unwrap();
     assert!(!far.holds && far.finding.contains("target is 360 m away from the segment, and spacing is 4 m"), "{far:?}");
 }
+
+/// Remark 6.2.1: what stands on the way of a robot that has lost its team is told of where nothing leads it round.
+#[test]
+fn obstacles_between_a_lost_robot_and_its_team() {
+    let connection = |besides: &str| {
+        let text = format!(
+            "name: lost
+kind: nearest_points
+duration: 60.0
+step: 0.002
+method: semi_implicit_euler
+segment: {{kind: line, points: [[-60.0, 0.0], [60.0, 0.0]]}}
+team_goal: [50.0, 0.0]
+trench: {{kind: hyperbolic, alpha: 10.0, a: 1.0}}
+damping: 5.0
+zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2}}
+obstacle_potential: {{pole: 0.5, cut: 1.5, strength: 10.0, m: 2}}
+recovery: {{speed: 2.0}}
+robots: [{{position: [44.0, 2.0]}}, {{position: [-10.0, 3.0]}}]
+{besides}"
+        );
+        let scenario = trench_scenario::parse("lost.yaml", &text).unwrap();
+        let verdicts = trench_check::scenario("lost.yaml", &scenario);
+        verdicts.into_iter().find(|verdict| verdict.check == "connection").unwrap()
+    };
+    let on_it = "obstacles: [{disc: [20.0, 0.0], radius: 2.0}]\n";
+    let told = connection(on_it);
+    assert!(told.holds && told.note && told.finding.contains("give remedies"), "{told:?}");
+    let remedies = "remedies: {radius: 0.1, patience: 1.0, arrived: 0.05, rising: 1.0}\n";
+    for besides in [&[on_it, remedies].concat(), "obstacles: [{disc: [20.0, 9.0], radius: 2.0}]\n"] {
+        let told = connection(besides);
+        assert!(told.holds && !told.note && told.finding.contains("(Remark 6.2.1)"), "{told:?}");
+    }
+}
