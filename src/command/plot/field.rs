@@ -1,8 +1,8 @@
 //! The field seen from above: x to the right and y upwards at the same scale.
 
-use super::axes::short;
 use super::extensions::{self, draw_extensions};
 use super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::ticks::Ticks;
 use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -23,6 +23,8 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
+/// Marks of the horizontal and the vertical axis, at most.
+const MARKS: [usize; 2] = [12, 9];
 /// What a legend says of things that are not robots: a table knows no segments, and the goal points' ways stand for them.
 pub(super) fn notes(run: &Run) -> String {
     let Some(formation) = &run.formation else { return "× end of the goal point's way (grey)".to_owned() };
@@ -75,8 +77,15 @@ impl View {
             .map_err(text)?;
         let mut mesh = chart.configure_mesh();
         mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
-        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(12).y_labels(9);
-        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+        mesh.set_all_tick_mark_size(4 * UNIT)
+            .label_style(font(12))
+            .axis_desc_style(font(13))
+            .x_labels(MARKS[0])
+            .y_labels(MARKS[1]);
+        let (across, up) =
+            (Ticks::of((self.x.start, self.x.end), MARKS[0]), Ticks::of((self.y.start, self.y.end), MARKS[1]));
+        let (horizontal, vertical) = (|value: &f64| across.label(*value), |value: &f64| up.label(*value));
+        mesh.x_label_formatter(&horizontal).y_label_formatter(&vertical);
         mesh.x_desc("x (m)").y_desc("y (m)").draw().map_err(text)?;
         let frame = [(self.x.start, self.y.start), (self.x.end, self.y.end)];
         chart.draw_series([Rectangle::new(frame, line(BLACK.mix(0.4), 1))]).map_err(text)?;

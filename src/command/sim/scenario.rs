@@ -113,8 +113,8 @@ impl Display for Told<'_> {
         if let Some(first) = self.0.first_collision() {
             writeln!(
                 formatter,
-                "collided: {first}, and no obstacle stops a robot in a simulation: what is told besides is of a run that no robot can make; \
-                 make the obstacles' repulsion stronger, what draws robots weaker, the step smaller, or write `limits` and `safety`"
+                "collided: {first}; no obstacle stops a robot in a simulation, and this run is none that robots can make: make the obstacles' \
+                 repulsion stronger, what draws robots weaker or the step smaller, or write `limits` and `safety`"
             )?;
         }
         cases.iter().try_for_each(|case| tell_case(formatter, case))
