@@ -406,7 +406,10 @@ fn pictures_of_headings_are_of_robots_that_have_them() {
         parse("a", &file("3.1_hilare.yaml").replacen("figures:\n", &first, 1)).map_err(|error| error.to_string())
     };
     for cases in ["", ", cases: [point, offset]"] {
-        assert!(drawn(cases).is_err_and(|error| error.contains("draws = curvatures")), "{cases}");
+        assert!(
+            drawn(cases).is_err_and(|error| error.contains("draws = curvatures") && error.contains("with a `plant`")),
+            "{cases}"
+        );
     }
     assert!(drawn(", cases: [printed, offset]").is_ok());
 }

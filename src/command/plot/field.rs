@@ -23,6 +23,8 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
+/// The last number of the horizontal axis is half beside it.
+const RIGHT: u32 = 24 * UNIT;
 /// Marks of the horizontal and the vertical axis, at most.
 const MARKS: [usize; 2] = [12, 9];
 /// What a legend says of things that are not robots: a table knows no segments, and the goal points' ways stand for them.
@@ -62,7 +64,7 @@ impl View {
 
     /// The height, in units, of a chart of this width whose two axes have the same scale.
     pub(super) fn height(&self, width: u32) -> u32 {
-        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
+        let plot_width = f64::from(width - LABELS[0] - MARGIN - RIGHT);
         let ratio = (self.y.end - self.y.start) / (self.x.end - self.x.start);
         (plot_width * ratio).round() as u32 + LABELS[1] + 2 * MARGIN
     }
@@ -71,6 +73,7 @@ impl View {
     pub(super) fn chart<'a, 'b>(&self, area: &'a Area<'b>) -> Result<FieldChart<'a, 'b>, String> {
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
+            .margin_right(RIGHT)
             .y_label_area_size(LABELS[0])
             .x_label_area_size(LABELS[1])
             .build_cartesian_2d(self.x.clone(), self.y.clone())

@@ -1,7 +1,7 @@
 //! The numbers at the marks of an axis.
 
 /// Digits behind the point that a number may have before it is written with an exponent.
-const DECIMALS: usize = 5;
+const DECIMALS: usize = 4;
 
 /// Marks of an axis, no two of which read the same.
 #[derive(Clone, Copy)]

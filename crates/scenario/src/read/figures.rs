@@ -86,7 +86,10 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
     let needs_headings = matches!(figure.drawing, Drawing::Misalignments | Drawing::Curvatures);
     if needs_headings && !all_have_headings(scenario, &figure.cases) {
         let problem = "is a picture of robots with headings, but here robots are points, which have none";
-        let remedy = "draw errors, speeds or trajectories, or, of kind goal_tracking, name `cases` with a `plant`";
+        let remedy = match scenario.task {
+            Task::GoalTracking(_) => "name `cases` with a `plant`, or draw errors, speeds or trajectories",
+            _ => "draw errors, speeds or trajectories",
+        };
         return Err(map.error("draws", problem, remedy));
     }
     Ok(figure)

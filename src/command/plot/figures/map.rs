@@ -20,6 +20,8 @@ pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ran
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [58 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 12 * UNIT;
+/// The last number of the horizontal axis is half beside it.
+const RIGHT: u32 = 24 * UNIT;
 /// Marks of an axis, at most.
 const MARKS: usize = 9;
 /// The square at the end of a path, about it, and a robot's name, from it, units.
@@ -66,7 +68,7 @@ impl Field {
     /// The height, in units, of a map of this width with equal scales.
     pub(super) fn height(self, width: u32) -> u32 {
         let [left, right, bottom, top] = self.0;
-        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
+        let plot_width = f64::from(width - LABELS[0] - MARGIN - RIGHT);
         (plot_width * (top - bottom) / (right - left)).round() as u32 + LABELS[1] + 2 * MARGIN
     }
 
@@ -86,6 +88,7 @@ impl Field {
         let (window @ [left, right, bottom, top], bodies) = (self.0, arrows.is_some());
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
+            .margin_right(RIGHT)
             .y_label_area_size(LABELS[0])
             .x_label_area_size(LABELS[1])
             .build_cartesian_2d(left..right, bottom..top)

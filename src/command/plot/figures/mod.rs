@@ -103,7 +103,8 @@ fn framed(
 
 /// What signs on maps mean: those alone that this scenario has. Robots have arrows as long as their way of so many seconds, or none.
 fn field_notes(scenario: &Scenario, arrows: Option<f64>) -> String {
-    let robot = arrows.map(|seconds| format!("● robot,  → its velocity: the way of {} s", super::ticks::short(seconds)));
+    let robot =
+        arrows.map(|seconds| format!("● robot,  → its velocity: the way of {} s", super::ticks::short(seconds)));
     let signs = match (&scenario.task, robot) {
         (Task::Regulating(_), _) => "● start,  ■ end,  × goal".to_owned(),
         (Task::GoalTracking(_), Some(robot)) => format!("{robot},  ○ its goal point"),
