@@ -98,8 +98,14 @@ fn mistakes_are_told_with_their_line() {
     assert!(told.contains("wrong.yaml:4: step = -1.0: is not positive; write a number above 0"), "{told}");
 }
 
-/// A shipped scenario, changed, run: its summary as people are told it and as programs are, and standard error.
+/// A shipped scenario, changed, run to its end: its summary as people are told it and as programs are, and standard error.
 fn changed(name: &str, changes: &[(&str, &str)]) -> (String, serde_json::Value, String) {
+    let (told, json, errors) = changed_with(name, changes, 0);
+    (told, json, errors[0].clone())
+}
+
+/// The same of a run with this exit code; standard error as people are told it and beside the summary for programs.
+fn changed_with(name: &str, changes: &[(&str, &str)], code: i32) -> (String, serde_json::Value, [String; 2]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("config/scenarios");
     let mut text = std::fs::read_to_string(root.join(name)).unwrap();
     for (old, new) in changes {
@@ -111,17 +117,51 @@ fn changed(name: &str, changes: &[(&str, &str)]) -> (String, serde_json::Value, 
     std::fs::write(&file, text).unwrap();
     let told = trench(&["sim", file.to_str().unwrap(), "--quiet"]);
     let json = trench(&["sim", file.to_str().unwrap(), "--quiet", "--json"]);
-    assert!(told.status.success() && json.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+    let errors = [&told, &json].map(|output| String::from_utf8(output.stderr.clone()).unwrap());
+    assert_eq!([told.status.code(), json.status.code()], [Some(code); 2], "{errors:?}");
     let json = serde_json::from_slice(&json.stdout).unwrap();
-    (String::from_utf8(told.stdout).unwrap(), json, String::from_utf8(told.stderr).unwrap())
+    (String::from_utf8(told.stdout).unwrap(), json, errors)
 }
 
 /// A wall that the trench outdoes: the robot goes through, and that is said as it is.
 #[test]
 fn who_was_inside_an_obstacle_is_told_so() {
     let weak = ("strength: 10.0, m: 2, edge: jump}", "strength: 10.0, m: 2, edge: jump, full_acceleration: 5.0}");
-    let (told, ..) = changed("7.11.yaml", &[weak]);
+    let (told, json, errors) = changed_with("7.11.yaml", &[weak], 10);
     assert!(told.contains("obstacle 1: a robot was inside the obstacle, 1.0000 m from its edge"), "{told}");
+    assert!(told.lines().any(|line| line.starts_with("collided: r1 went into obstacle 1 at ")), "{told}");
+    let conforms = told.lines().find(|line| line.contains("all conform after ")).unwrap();
+    assert!(conforms.ends_with(", but robots went through obstacles:"), "{told}");
+    let collision = &json["cases"][0]["collisions"][0];
+    assert_eq!([&collision["robot"], &collision["way"]], ["r1", "into"], "{collision}");
+    // Who reads neither is told, too.
+    assert!(errors[0].is_empty() && errors[1].contains(": collided: r1 went into obstacle 1 at "), "{errors:?}");
+}
+
+/// A thin wall that is crossed between two steps.
+#[test]
+fn who_went_through_a_wall_is_told_so() {
+    let wall =
+        ("- {polygon: [[-3.0, 2.0], [3.0, 2.0], [3.0, 4.0], [-3.0, 4.0]]}", "- {walls: [[-3.0, 2.0], [3.0, 2.0]]}");
+    let weak = ("strength: 10.0, m: 2, edge: jump}", "strength: 10.0, m: 2, edge: jump, full_acceleration: 5.0}");
+    let (told, json, _) = changed_with("7.11.yaml", &[wall, weak], 10);
+    assert!(
+        told.contains("\n  r1 went through obstacle 1 at ")
+            && told.contains("\n  obstacle 1: a robot went through it\n"),
+        "{told}"
+    );
+    assert_eq!(json["cases"][0]["collisions"][0]["way"], "through");
+    assert_eq!(json["cases"][0]["obstacles"][0]["least_gap"], 0.0);
+}
+
+/// What a scenario does not have is not spoken of.
+#[test]
+fn zones_and_sections_are_told_where_there_are_some() {
+    let (told, json, _) = changed("8.4_queue.yaml", &[("section: \"8.4\"\n", "")]);
+    assert!(!told.contains("zone 1") && !told.contains("section"), "{told}");
+    assert!(json["cases"][0]["in_zone_1"].is_null() && json["cases"][0]["closest_pair"].is_number());
+    let (told, ..) = changed("7.10.yaml", &[]);
+    assert!(told.contains(", 0.000 s in zone 1\n") && told.contains(" (section 7.10): "), "{told}");
 }
 
 /// A robot that an obstacle has left nowhere to go: said before the run, in the summary, and since when.

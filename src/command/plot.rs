@@ -11,6 +11,7 @@ mod snapshots;
 mod speeds;
 mod stack;
 mod style;
+mod ticks;
 mod trajectories;
 
 use super::check::{Kind, kind};

@@ -35,11 +35,11 @@ Exit codes:
   n   the exit code of the node that ended the run
   1   the run did not end within --seconds
   2   the scenario, the launch file, the arguments or a node's configuration is wrong
-  10  the formation does not stand; of a scenario: the run diverged
+  10  the formation does not stand; of a scenario: the run diverged, or a robot went through an obstacle
 Scenarios end with 0, 2 or 10.";
 
-/// Of a scenario whose run diverged; the operator's, if the formation does not stand.
-const DIVERGED: u8 = 10;
+/// Of a scenario whose run no robots can make: it diverged, or they went through obstacles; the operator's, if the formation does not stand.
+const FAILED: u8 = 10;
 
 /// Runs a scenario file headless, or drives the node cores of a launch file in lock-step, faster than real time.
 ///
@@ -117,7 +117,7 @@ impl SimError {
 
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Run(RunError::Diverged { .. }) | Self::RunOf { error: RunError::Diverged { .. }, .. } => DIVERGED,
+            Self::Run(RunError::Diverged { .. }) | Self::RunOf { error: RunError::Diverged { .. }, .. } => FAILED,
             _ => 2,
         }
     }
@@ -162,7 +162,12 @@ fn simulate(arguments: &Arguments) -> Result<u8, SimError> {
     let done = scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(&arguments.file))?;
     write_csv(arguments, &done.run)?;
     scenario::tell(&done.summary, &infeasible, arguments.json);
-    Ok(if done.summary.diverged.is_some() { DIVERGED } else { 0 })
+    let collision = done.summary.first_collision();
+    // The text says so itself; who has it read by a program sees it all the same.
+    if let Some(collision) = collision.filter(|_| arguments.json) {
+        eprintln!("{}: collided: {collision}", arguments.file.display());
+    }
+    Ok(if done.summary.diverged.is_some() || collision.is_some() { FAILED } else { 0 })
 }
 
 /// What is said on the command line is done, or refused: a scenario has neither nodes, nor arguments, and says itself how long it takes.

@@ -21,7 +21,7 @@ pub(crate) fn room(subject: &str, segment: &Curve, fragments: &[Interval], robot
     }
     let Room { found, most } = Room::count(segment, fragments, rho_hat, enough);
     let length: f64 = fragments.iter().map(|(from, to)| to - from).sum();
-    let on = format!("{} m in {} fragments", number(length), fragments.len());
+    let on = format!("{} m in {} fragments", number(length), segment.count_fragments(fragments));
     if found >= robots {
         let more = if found == enough { " and more" } else { "" };
         let finding = format!("{on} have {found} places{more} for {robots} robots, {apart} m from each other");

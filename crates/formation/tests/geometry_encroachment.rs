@@ -30,11 +30,11 @@ fn the_discs_of_7_10() {
     for (interval, expected) in found.iter().zip(expected) {
         assert!((interval.0 - expected.0).abs() < 1e-9 && (interval.1 - expected.1).abs() < 1e-9, "{interval:?}");
     }
-    assert_eq!(qualified_fragments(whole, &found, 0.0).len(), 4);
-    let roomy = qualified_fragments(whole, &found, 4.0);
+    assert_eq!(qualified_fragments(&diagonal, whole, &found, 0.0).len(), 4);
+    let roomy = qualified_fragments(&diagonal, whole, &found, 4.0);
     assert_eq!(roomy, [(0.0, found[0].0), (found[0].1, found[1].0), (found[2].1, whole.1)]);
-    assert_eq!(qualified_fragments(whole, &[whole], 0.0), [], "the whole segment is covered");
-    assert_eq!(qualified_fragments(whole, &[], 1.0), [whole]);
+    assert_eq!(qualified_fragments(&diagonal, whole, &[whole], 0.0), [], "the whole segment is covered");
+    assert_eq!(qualified_fragments(&diagonal, whole, &[], 1.0), [whole]);
 }
 
 proptest! {

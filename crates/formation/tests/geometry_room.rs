@@ -126,3 +126,20 @@ proptest! {
         prop_assert!(kept.len() <= room.most && room.found <= room.most, "{} {room:?}", kept.len());
     }
 }
+
+/// A fragment across the point where a circle begins has as many places as the same one elsewhere.
+#[test]
+fn places_across_the_beginning_of_a_closed_curve() {
+    let arc = |start_angle: f64| curve(CurveShape::Arc { centre: at(0.0, 0.0), radius: 10.0, start_angle, sweep: TAU });
+    let disc = [Obstacle { id: 1, shape: Shape::new(&[at(-10.0, 0.0)], 18.6).unwrap() }];
+    for (start, pieces) in [(0.0, 2), (PI, 1)] {
+        let segment = arc(start);
+        let (placed, outlines) = (Placed::new(&segment, Default::default()), [disc[0].shape.outline()]);
+        let fragments = Fragments::find(&placed, segment.domain(), &outlines, 0.1, 5.0);
+        let intervals = fragments.intervals();
+        assert_eq!((intervals.len(), segment.count_fragments(intervals)), (pieces, 1), "{fragments:?}");
+        for (pitch, places) in [(1.9, 8), (4.0, 4), (8.0, 2), (14.0, 1)] {
+            check(&segment, intervals, pitch, (places, places));
+        }
+    }
+}

@@ -86,7 +86,7 @@ fn three_tied_points() {
     let second = curve.nearest(touching[1]).arc_length;
     // In one piece, and with the corners cut out.
     let cut = [(second - 2.6, second - 1.8), (second + 1.8, second + 2.0)];
-    for fragments in [Fragments::whole(whole), Fragments::beside(whole, &cut, 0.0)] {
+    for fragments in [Fragments::whole(whole), Fragments::beside(&curve, whole, &cut, 0.0)] {
         let seek = |leader: LeaderView| {
             Seeker::default().seek(&SETTINGS, &segment, (whole, &fragments), at(0.0, 0.0), Some((leader, &radii)))
         };
@@ -196,4 +196,70 @@ proptest! {
         let least = sampled.fold(f64::INFINITY, f64::min);
         prop_assert!(found.distance <= least + 1e-9 && found.distance >= least - curve.length() / 4000.0, "{found:?} {least}");
     }
+}
+
+/// An ellipse that begins at the end of its shorter semi-axis, (2, 0), with a gap far from there: one fragment across the beginning, or two
+/// with another gap. Seen from within, (-2, 0) is as near as (2, 0).
+fn ellipse() -> Curve {
+    Curve::new(&CurveShape::Ellipse { centre: at(0.0, 0.0), semi_axes: [2.0, 5.0], rotation: 0.0 }, false, false)
+        .unwrap()
+}
+
+#[test]
+fn a_nearest_point_is_kept_across_the_beginning_of_a_closed_curve() {
+    let curve = ellipse();
+    let (segment, length) = (Placed::new(&curve, Isometry2::identity()), curve.length());
+    let fragments = Fragments::beside(&curve, (0.0, length), &[(5.0, 6.0), (length - 6.0, length - 5.0)], 4.5);
+    assert!(near(&fragments, &[(0.0, 5.0), (6.0, length - 6.0), (length - 5.0, length)], 1e-12), "{fragments:?}");
+    for way in [1.0, -1.0] {
+        let mut seeker = Seeker::default();
+        for step in -20..=20 {
+            // First nearer to (2, 0), then to the other side, by less than the margin.
+            let robot = at(if step < -10 { 0.01 } else { -0.01 }, 0.01 * way * f64::from(step));
+            let sought = point(seeker.seek(&SETTINGS, &segment, ((0.0, length), &fragments), robot, None));
+            assert!((sought - at(2.0, 0.0)).norm() < 0.5, "{way} {step}: {sought}");
+        }
+    }
+}
+
+/// What goes across the beginning has its ends where it ends, on both sides.
+#[test]
+fn a_nearest_point_stays_on_a_fragment_across_the_beginning() {
+    let curve = ellipse();
+    let (segment, length) = (Placed::new(&curve, Isometry2::identity()), curve.length());
+    let fragments = Fragments::beside(&curve, (0.0, length), &[(0.3, 6.0), (length - 6.0, length - 0.2)], 0.4);
+    for (way, end) in [(1.0, 0.3), (-1.0, length - 0.2)] {
+        let mut seeker = Seeker::default();
+        for step in 0..=40 {
+            let robot = at(if step == 0 { 0.1 } else { -0.005 }, 0.02 * way * f64::from(step - 20));
+            let sought = point(seeker.seek(&SETTINGS, &segment, ((0.0, length), &fragments), robot, None));
+            assert!(sought.x > 1.9, "{way} {step}: {sought}");
+            if step == 40 {
+                assert!((sought - curve.at(end).point).norm() < 1e-9, "{way}: {sought}");
+            }
+        }
+    }
+}
+
+/// Step (6): where a leader's zone reaches one half, the whole fragment counts.
+#[test]
+fn a_leader_reaches_a_fragment_across_the_beginning_as_a_whole() {
+    let curve = ellipse();
+    let (segment, length) = (Placed::new(&curve, Isometry2::identity()), curve.length());
+    let fragments = Fragments::beside(&curve, (0.0, length), &[(4.0, 4.2), (length - 4.2, length - 4.0)], 5.0);
+    let (leader, robot) = (resting(curve.at(3.0).point), curve.at(length - 0.5).point);
+    let sought = point(Seeker::default().seek(
+        &SETTINGS,
+        &segment,
+        ((0.0, length), &fragments),
+        robot,
+        Some((leader, &radii())),
+    ));
+    assert!((sought - robot).norm() < 1e-9, "{sought}");
+    // The beginning is no end of it, and ties with nothing beside it.
+    let beside = curve.at(1e-5).point - at(0.3, 0.0);
+    let leader = LeaderView { speed: 1.0, ..resting(at(2.0, 1.0)) };
+    let sought =
+        Seeker::default().seek(&SETTINGS, &segment, ((0.0, length), &fragments), beside, Some((leader, &radii())));
+    assert!(matches!(sought, Sought::Point(_)), "{sought:?}");
 }

@@ -158,7 +158,7 @@ fn directions_meet_the_extension() {
 
 #[test]
 fn endless_fragments_have_places_for_all() {
-    let groups = Fragments::beside((-ENDLESS, ENDLESS), &[(2.0, 4.0)], 0.5).groups(5.0, 1.0);
+    let groups = Fragments::beside(&queue(), (-ENDLESS, ENDLESS), &[(2.0, 4.0)], 0.5).groups(&queue(), 5.0, 1.0);
     assert_eq!(groups, [((-ENDLESS, ENDLESS), usize::MAX)]);
 }
 

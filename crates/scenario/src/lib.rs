@@ -4,6 +4,7 @@
 //! law, gains, potentials, zones, obstacles, step, duration. docs/scenarios.md describes the format.
 
 mod closest;
+mod collisions;
 mod course;
 mod divergence;
 mod four;
@@ -31,6 +32,6 @@ pub use scenario::{
 };
 pub use simulation::{RunError, Sample, Simulation};
 pub use summary::{
-    CaseSummary, ChangeSummary, DivergedSummary, LyapunovSummary, ObstacleSummary, OutsideSummary, RobotSummary,
-    Summary, TransitSummary, Transits, WheelSummary,
+    CaseSummary, ChangeSummary, CollisionSummary, DivergedSummary, LyapunovSummary, ObstacleSummary, OutsideSummary,
+    RobotSummary, Summary, TransitSummary, Transits, WheelSummary,
 };

@@ -1,11 +1,13 @@
 //! How a run went, looked at after every step.
 
+use crate::collisions::Collision;
 use crate::divergence::Divergence;
 use crate::four::Now;
 use crate::neutral::outside;
 use crate::robots::Robots;
 use crate::summary::{
-    CaseSummary, ChangeSummary, DivergedSummary, ObstacleSummary, OutsideSummary, RobotSummary, Summary, WheelSummary,
+    CaseSummary, ChangeSummary, CollisionSummary, DivergedSummary, ObstacleSummary, OutsideSummary, RobotSummary,
+    Summary, WheelSummary,
 };
 use crate::team::{Among, Team};
 use crate::transits::Watch;
@@ -166,12 +168,25 @@ impl Measures {
                 .iter()
                 .map(|&(id, least_gap)| ObstacleSummary { id, least_gap })
                 .collect(),
+            collisions: self.collisions(case),
             changes: self.changes.clone(),
             neutral_after: if has_leaders { since(self.teams[case].last_outside) } else { None },
             outside_neutral,
-            in_zone_1: self.teams[case].in_zone_1,
+            in_zone_1: scenario.zoning().map(|_| self.teams[case].in_zone_1),
             robots,
         }
+    }
+
+    fn collisions(&self, case: usize) -> Vec<CollisionSummary> {
+        let team = &self.teams[case];
+        let told = |Collision { time, robot, obstacle, stayed, times }: Collision| CollisionSummary {
+            time,
+            robot: self.seats[team.seats().start + robot].name.clone(),
+            obstacle,
+            way: if stayed { "into" } else { "through" },
+            times,
+        };
+        team.gaps.collisions().iter().copied().map(told).collect()
     }
 
     /// Whose leaders are not in their neutral zones at the end.

@@ -1,6 +1,7 @@
 //! How a run went, for people and for programs.
 
 use serde::Serialize;
+use std::fmt::{self, Display};
 
 /// A run, judged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +35,15 @@ pub struct DivergedSummary {
     pub remedy: &'static str,
 }
 
+impl Summary {
+    /// The first robot of all that went through an obstacle, or into one: then nothing else that is told means what it says.
+    #[must_use]
+    pub fn first_collision(&self) -> Option<&CollisionSummary> {
+        let collisions = self.cases.iter().flat_map(|case| &case.collisions);
+        collisions.min_by(|a, b| a.time.total_cmp(&b.time))
+    }
+}
+
 /// A team.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CaseSummary {
@@ -43,14 +53,16 @@ pub struct CaseSummary {
     pub conforms_after: Option<f64>,
     /// Least distance of any two robots, m.
     pub closest_pair: Option<f64>,
-    /// Least gap between a robot and each obstacle's own outline, m.
+    /// Least gap between a robot's way and each obstacle's own outline, m.
     pub obstacles: Vec<ObstacleSummary>,
+    /// Who went through or into which obstacle, in time.
+    pub collisions: Vec<CollisionSummary>,
     /// s after which every leader is for good in its follower's neutral zone; none where it is not.
     pub neutral_after: Option<f64>,
     /// Who is not in its follower's neutral zone at the end, and why: nobody where `neutral_after` says something, or where there are no zones.
     pub outside_neutral: Vec<OutsideSummary>,
-    /// Seconds that robots spent in zone 1 of a robot, summed over pairs.
-    pub in_zone_1: f64,
+    /// Seconds that robots spent in zone 1 of a robot, summed over pairs; none where there are no zones.
+    pub in_zone_1: Option<f64>,
     /// What befell a queue, in time: robots that quit and join, links that break.
     pub changes: Vec<ChangeSummary>,
     /// By rank.
@@ -90,8 +102,32 @@ pub struct ChangeSummary {
 pub struct ObstacleSummary {
     /// Its id.
     pub id: u32,
-    /// m.
+    /// m; negative: so deep inside it a robot was, 0: its way crossed it and ended outside.
     pub least_gap: f64,
+}
+
+/// A robot that an obstacle did not stop.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CollisionSummary {
+    /// When the two met first: the end of the step on whose way it was, s.
+    pub time: f64,
+    /// Which.
+    pub robot: String,
+    /// The obstacle's id.
+    pub obstacle: u32,
+    /// `through` it, out on another side within that step, or `into` it.
+    pub way: &'static str,
+    /// How often it did so until the end.
+    pub times: usize,
+}
+
+/// For people: `r2 went through obstacle 3 at 30.843 s`.
+impl Display for CollisionSummary {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { time, robot, obstacle, way, times } = self;
+        write!(formatter, "{robot} went {way} obstacle {obstacle} at {time:.3} s")?;
+        if *times > 1 { write!(formatter, ", and {} times more", times - 1) } else { Ok(()) }
+    }
 }
 
 /// A robot.

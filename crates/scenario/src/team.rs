@@ -94,6 +94,7 @@ impl Team {
         if changed || !self.astray.is_empty() {
             self.look_closely(points, (among, now), changed, divergence, transits);
         }
+        self.gaps.remember(points);
     }
 
     /// Looks at those who are `astray`, or at all where obstacles have `changed` or robots near each other have to be sought anew.
@@ -116,7 +117,8 @@ impl Team {
             let index = index as usize;
             let (seat, position) = (seats.start + index, points[index].position);
             let apart = closest.look(points, index, among.zoning, || *in_zone_1 += now.step);
-            let room = divergence.look(&among.seats[seat], position, now.time).min(gaps.look(index, position));
+            let room =
+                divergence.look(&among.seats[seat], position, now.time).min(gaps.look(index, position, now.time));
             let stays = transits.as_mut().map_or(f64::INFINITY, |transits| transits.look(seat, position));
             fours[index / LANES].rooms.set(index % LANES, position, room.min(apart).min(stays));
         }

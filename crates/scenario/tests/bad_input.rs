@@ -396,6 +396,27 @@ fn robots_begin_in_places_of_their_own() {
 
 /// Pictures of one name would be one file, and the last would stay.
 #[test]
+fn pictures_of_headings_are_of_robots_that_have_them() {
+    for drawing in ["misalignments", "curvatures"] {
+        let (drawn, value) = (format!("draws: {drawing}}}"), format!("figures[0].draws = {drawing}: "));
+        let parts = [&*value, "points, which have none; draw errors, speeds or trajectories"];
+        check("7.11.yaml", "draws: trajectories}", &drawn, &parts);
+    }
+    // Of three cases two have bodies.
+    let drawn = |cases: &str| {
+        let first = format!("figures:\n- {{figure: \"a\", title: a, draws: curvatures{cases}}}\n");
+        parse("a", &file("3.1_hilare.yaml").replacen("figures:\n", &first, 1)).map_err(|error| error.to_string())
+    };
+    for cases in ["", ", cases: [point, offset]"] {
+        assert!(
+            drawn(cases).is_err_and(|error| error.contains("draws = curvatures") && error.contains("with a `plant`")),
+            "{cases}"
+        );
+    }
+    assert!(drawn(", cases: [printed, offset]").is_ok());
+}
+
+#[test]
 fn figures_have_names_of_their_own() {
     let (name, old) = ("6.5_k_5.yaml", "figures:\n");
     let twice = |first: &str, second: &str| {

@@ -1,12 +1,16 @@
 //! Curves over time.
 
 use super::style::{Area, FAINT, REFERENCE, UNIT, colour, font, line, text};
+use super::ticks::Ticks;
 use plotters::prelude::*;
 
 /// What [`TimeAxes::horizontal`] says of time.
 pub(super) const TIME: &str = "t (s)";
 /// [`TimeAxes::least_margin`] of distances, speeds and angles, in their units.
 pub(super) const LEAST_MARGIN: f64 = 1e-3;
+
+/// Marks of the horizontal and the vertical axis, at most.
+const MARKS: [usize; 2] = [10, 6];
 
 /// A diagram of one quantity over time, or over another one.
 pub(super) struct TimeAxes<'a> {
@@ -43,10 +47,11 @@ impl TimeAxes<'_> {
             .label_style(font(12))
             .axis_desc_style(font(13))
             .y_desc(self.quantity)
-            .y_labels(6)
-            .x_labels(10);
-        let vertical = |value: &f64| of_range(*value, high - low);
-        mesh.y_label_formatter(&vertical).x_label_formatter(&|value| short(*value));
+            .y_labels(MARKS[1])
+            .x_labels(MARKS[0]);
+        let (across, up) = (Ticks::of(self.span, MARKS[0]), Ticks::of((low, high), MARKS[1]));
+        let (horizontal, vertical) = (|value: &f64| across.label(*value), |value: &f64| up.label(*value));
+        mesh.x_label_formatter(&horizontal).y_label_formatter(&vertical);
         if let Some(horizontal) = self.horizontal {
             mesh.x_desc(horizontal);
         }
@@ -79,24 +84,4 @@ impl TimeAxes<'_> {
 /// At most about two thousand points: more than a picture has columns.
 fn thinned(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
     points.iter().copied().step_by(points.len().div_ceil(2000).max(1))
-}
-
-/// A number on an axis of this length: with as many digits as tell its marks apart.
-fn of_range(value: f64, range: f64) -> String {
-    if range >= 0.006 {
-        short(value)
-    } else if value.abs() < range * 1e-3 {
-        "0".to_owned()
-    } else {
-        // Marks are a tenth of the axis apart, or more.
-        let digits = (value.abs() / range).log10().ceil().max(0.0) as usize + 1;
-        format!("{value:.digits$e}")
-    }
-}
-
-/// A number without trailing zeros and without a negative zero.
-pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

@@ -1,8 +1,8 @@
 //! The field seen from above: x to the right and y upwards at the same scale.
 
-use super::axes::short;
 use super::extensions::{self, draw_extensions};
 use super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::ticks::Ticks;
 use plotters::chart::ChartContext;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -23,6 +23,10 @@ const CAMERA_VIEW: [f64; 2] = [2.48, 1.83];
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [54 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 10 * UNIT;
+/// The last number of the horizontal axis is half beside it.
+const RIGHT: u32 = 24 * UNIT;
+/// Marks of the horizontal and the vertical axis, at most.
+const MARKS: [usize; 2] = [12, 9];
 /// What a legend says of things that are not robots: a table knows no segments, and the goal points' ways stand for them.
 pub(super) fn notes(run: &Run) -> String {
     let Some(formation) = &run.formation else { return "× end of the goal point's way (grey)".to_owned() };
@@ -60,7 +64,7 @@ impl View {
 
     /// The height, in units, of a chart of this width whose two axes have the same scale.
     pub(super) fn height(&self, width: u32) -> u32 {
-        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
+        let plot_width = f64::from(width - LABELS[0] - MARGIN - RIGHT);
         let ratio = (self.y.end - self.y.start) / (self.x.end - self.x.start);
         (plot_width * ratio).round() as u32 + LABELS[1] + 2 * MARGIN
     }
@@ -69,14 +73,22 @@ impl View {
     pub(super) fn chart<'a, 'b>(&self, area: &'a Area<'b>) -> Result<FieldChart<'a, 'b>, String> {
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
+            .margin_right(RIGHT)
             .y_label_area_size(LABELS[0])
             .x_label_area_size(LABELS[1])
             .build_cartesian_2d(self.x.clone(), self.y.clone())
             .map_err(text)?;
         let mut mesh = chart.configure_mesh();
         mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
-        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(12).y_labels(9);
-        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+        mesh.set_all_tick_mark_size(4 * UNIT)
+            .label_style(font(12))
+            .axis_desc_style(font(13))
+            .x_labels(MARKS[0])
+            .y_labels(MARKS[1]);
+        let (across, up) =
+            (Ticks::of((self.x.start, self.x.end), MARKS[0]), Ticks::of((self.y.start, self.y.end), MARKS[1]));
+        let (horizontal, vertical) = (|value: &f64| across.label(*value), |value: &f64| up.label(*value));
+        mesh.x_label_formatter(&horizontal).y_label_formatter(&vertical);
         mesh.x_desc("x (m)").y_desc("y (m)").draw().map_err(text)?;
         let frame = [(self.x.start, self.y.start), (self.x.end, self.y.end)];
         chart.draw_series([Rectangle::new(frame, line(BLACK.mix(0.4), 1))]).map_err(text)?;

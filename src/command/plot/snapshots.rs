@@ -1,8 +1,8 @@
 //! The team at chosen times (Figures 4.36 and 4.42): bodies, goal points and the paths that led there.
 
-use super::axes::short;
 use super::field::{View, draw_reference, draw_robot, notes};
 use super::style::{LEGEND, Picture, UNIT, centred, colour, legend, line, picture, text};
+use super::ticks::short;
 use plotters::prelude::*;
 use trench_bag::run::{Run, distance};
 

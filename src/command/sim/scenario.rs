@@ -20,6 +20,9 @@ mod messages;
 /// Transits of a robot that people are told the times of; programs are told of a hundred.
 const TRANSITS: usize = 8;
 
+/// Collisions of a case that people are told; programs are told of all.
+const COLLISIONS: usize = 20;
+
 /// A run and what is to be said of it.
 pub(crate) struct Done {
     pub(crate) run: Run,
@@ -99,11 +102,19 @@ fn metres(value: f64) -> String {
 impl Display for Told<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Summary { name, section, duration, step, diverged, cases } = self.0;
-        writeln!(formatter, "{name} (section {section}): {duration} s in steps of {step} s")?;
+        let section = if section.is_empty() { String::new() } else { format!(" (section {section})") };
+        writeln!(formatter, "{name}{section}: {duration} s in steps of {step} s")?;
         if let Some(DivergedSummary { time, robot, distance, limit, remedy }) = diverged {
             writeln!(
                 formatter,
                 "diverged after {time:.2} s: {robot} was {distance:.4e} m out, beyond {limit:.0} m, a thousand times all that the file speaks of; {remedy}"
+            )?;
+        }
+        if let Some(first) = self.0.first_collision() {
+            writeln!(
+                formatter,
+                "collided: {first}; no obstacle stops a robot in a simulation, and this run is none that robots can make: make the obstacles' \
+                 repulsion stronger, what draws robots weaker or the step smaller, or write `limits` and `safety`"
             )?;
         }
         cases.iter().try_for_each(|case| tell_case(formatter, case))
@@ -112,14 +123,24 @@ impl Display for Told<'_> {
 
 fn tell_case(formatter: &mut fmt::Formatter<'_>, case: &CaseSummary) -> fmt::Result {
     let seconds = |time: Option<f64>| time.map_or("never".to_owned(), |time| format!("after {time:.2} s"));
-    writeln!(formatter, "\n{}: all conform {}", case.label, seconds(case.conforms_after))?;
+    let though = if case.collisions.is_empty() { "" } else { ", but robots went through obstacles:" };
+    writeln!(formatter, "\n{}: all conform {}{though}", case.label, seconds(case.conforms_after))?;
+    for collision in case.collisions.iter().take(COLLISIONS) {
+        writeln!(formatter, "  {collision}")?;
+    }
+    if let Some(more) = case.collisions.len().checked_sub(COLLISIONS).filter(|more| *more > 0) {
+        writeln!(formatter, "  and {more} more")?;
+    }
     if let Some(closest) = case.closest_pair {
-        writeln!(formatter, "  closest pair {closest:.4} m, {:.3} s in zone 1", case.in_zone_1)?;
+        let forbidden = case.in_zone_1.map_or(String::new(), |seconds| format!(", {seconds:.3} s in zone 1"));
+        writeln!(formatter, "  closest pair {closest:.4} m{forbidden}")?;
     }
     for obstacle in &case.obstacles {
         let (id, gap) = (obstacle.id, obstacle.least_gap);
         if gap < 0.0 {
             writeln!(formatter, "  obstacle {id}: a robot was inside the obstacle, {:.4} m from its edge", -gap)?;
+        } else if gap == 0.0 {
+            writeln!(formatter, "  obstacle {id}: a robot went through it")?;
         } else {
             writeln!(formatter, "  obstacle {id}: no robot nearer than {gap:.4} m")?;
         }

@@ -105,7 +105,8 @@ impl<T: Trench> Agent<T> {
             (shape, intervals)
         };
         let hulls: Vec<(Shape, Vec<Interval>)> = all.into_iter().map(taken).collect();
-        let fragments = Fragments::beside(whole, hulls.iter().flat_map(|hull| &hull.1), self.settings.seeking.room);
+        let fragments =
+            Fragments::beside(around.curve, whole, hulls.iter().flat_map(|hull| &hull.1), self.settings.seeking.room);
         self.fragments = self.within_reach(around, fragments);
         self.encroachers = Some(Box::new(Encroachers { map_from_segment, real, robots, hulls }));
         Ok(())

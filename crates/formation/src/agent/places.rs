@@ -34,17 +34,18 @@ impl<T: Trench> Agent<T> {
         let (segment, whole) = (around.moment(0.0).segment, around.curve.domain());
         let (radii, room) = (self.settings.zoning.radii(), self.settings.seeking.room);
         let near = encroached(&segment, whole, &[outline], radii.rho);
-        let Some(within) = fragments.meeting(&near, room) else { return fragments };
+        let Some(within) = fragments.meeting(around.curve, &near, room) else { return fragments };
         if self.arrived {
             return within;
         }
-        let groups = fragments.groups(radii.rho - 2.0 * radii.rho_hat, radii.rho_hat).into_iter();
+        let groups = fragments.groups(around.curve, radii.rho - 2.0 * radii.rho_hat, radii.rho_hat).into_iter();
         let reached: Vec<(Interval, usize)> =
-            groups.filter(|(span, _)| within.meeting(&[*span], room).is_some()).collect();
+            // What lies in it is long enough already: a span may have half of a fragment.
+            groups.filter(|(span, _)| within.meeting(around.curve, &[*span], 0.0).is_some()).collect();
         let most = reached.iter().map(|(_, places)| *places).max().unwrap_or(0);
         let enough = most.min(around.behind + 1);
         let spans: Vec<Interval> =
             reached.into_iter().filter(|(_, places)| *places >= enough).map(|(span, _)| span).collect();
-        within.meeting(&spans, room).unwrap_or(within)
+        within.meeting(around.curve, &spans, room).unwrap_or(within)
     }
 }

@@ -57,7 +57,10 @@ impl Curve {
         let across = Vector2::new(direction.y, -direction.x) / direction.norm();
         let on_one = |at: &f64| intervals.iter().any(|(from, to)| from <= at && at <= to);
         let outermost = [across, -across].into_iter().filter_map(|axis| self.farthest_along(axis).1).filter(on_one);
+        // Where a closed curve begins nothing ends that goes on behind.
+        let (joined, inside) = (self.joins(intervals), |at: &f64| 0.0 < *at && *at < self.length);
         let ends = intervals.iter().flat_map(|(from, to)| [*from, *to]).filter(|at| at.is_finite());
+        let ends = ends.filter(|at| !joined || inside(at));
         let extended = [0.0, self.length].into_iter().filter(|_| self.open_start || self.open_end).filter(on_one);
         let passed = |foot: &Foot| (foot.point - point).dot(&across).abs();
         let feet = ends.chain(extended).chain(outermost).map(|arc_length| self.seen_from(point, arc_length));

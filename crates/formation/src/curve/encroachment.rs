@@ -1,4 +1,4 @@
-//! Encroachment of a segment by obstacles, and the fragments that are left (7.5.1).
+//! Encroachment of a segment by obstacles (7.5.1).
 use super::excess::Excess;
 use super::level::{Run, SHALLOW, below};
 use super::primitive::Jet;
@@ -120,13 +120,6 @@ pub(crate) fn united(mut intervals: Vec<Interval>) -> Vec<Interval> {
         touches
     });
     intervals
-}
-
-/// What encroachments (in order and apart) leave of an interval: the fragments with at least `room` (m) for a robot.
-pub fn qualified_fragments(within: Interval, encroached: &[Interval], room: f64) -> Vec<Interval> {
-    let starts = core::iter::once(within.0).chain(encroached.iter().map(|interval| interval.1));
-    let ends = encroached.iter().map(|interval| interval.0).chain(core::iter::once(within.1));
-    starts.zip(ends).filter(|(start, end)| end - start >= room && end > start).collect()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ mod encroachment;
 mod error;
 mod excess;
 mod extensions;
+mod fragments;
 mod graph;
 mod least_sine;
 mod level;
@@ -32,8 +33,9 @@ mod within;
 
 pub(crate) use abreast::Feet;
 pub(crate) use encroachment::united;
-pub use encroachment::{Interval, encroached, qualified_fragments};
+pub use encroachment::{Interval, encroached};
 pub use error::CurveError;
+pub use fragments::qualified_fragments;
 pub use nearest::NearestSet;
 pub use placed::Placed;
 pub use reach::Reach;

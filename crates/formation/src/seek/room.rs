@@ -1,6 +1,7 @@
 //! How many robots find room on what obstacles leave of a segment, each outside of the repulsive zones of all others (7.5.1).
 use crate::Vector2;
 use crate::curve::{Curve, Interval};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What rounding may take from a pitch, as a share of it.
@@ -25,6 +26,8 @@ impl Room {
     /// Room on the `fragments` of `segment` (finite, in order and apart) for robots that stand at least `pitch` (m, positive) from each other,
     /// in a straight line: along the segment they may be farther. Both bounds are counted up to `enough`.
     pub fn count(segment: &Curve, fragments: &[Interval], pitch: f64, enough: usize) -> Self {
+        let unrolled = unrolled(segment, fragments);
+        let fragments = &*unrolled;
         let found = found(segment, fragments, pitch, enough);
         let covers = |(from, to): &Interval| to - from >= segment.length();
         let round = if segment.is_closed() && fragments.iter().any(covers) {
@@ -34,6 +37,14 @@ impl Room {
             enough
         };
         Self { found, most: most(segment, fragments, pitch, enough).min(round).max(found) }
+    }
+}
+
+/// The same fragments, a closed curve's from before where it begins: one that goes on behind there is in one piece then.
+fn unrolled<'a>(segment: &Curve, fragments: &'a [Interval]) -> Cow<'a, [Interval]> {
+    match (segment.across(fragments), fragments) {
+        (Some(across), [_, between @ .., _]) => core::iter::once(&across).chain(between).copied().collect(),
+        _ => Cow::Borrowed(fragments),
     }
 }
 

@@ -85,7 +85,8 @@ impl Seeker {
             },
         };
         if let Some(view) = settled.filter(|view| !in_zone(*view, &chosen)) {
-            let reaches = |interval: Interval| in_zone(view, &segment.nearest_within(view.0.position, interval));
+            let near = |part: Interval| in_zone(view, &segment.nearest_within(view.0.position, part));
+            let reaches = |interval: Interval| segment.curve().fragment_of(intervals, interval).any(near);
             chosen = search.nearest(intervals, reaches).unwrap_or(chosen);
         }
         self.kept = Some(chosen.arc_length);
@@ -152,15 +153,36 @@ impl Search<'_> {
         if (best.arc_length - kept).abs() <= self.margin {
             return Some(best);
         }
-        let (from, to) = *intervals.iter().find(|(from, to)| from - TIE <= kept && kept <= to + TIE)?;
-        let tracked = self.segment.track(self.robot, kept.clamp(from, to));
-        let foot = if from <= tracked.arc_length && tracked.arc_length <= to {
+        let interval = *intervals.iter().find(|(from, to)| from - TIE <= kept && kept <= to + TIE)?;
+        let tracked = self.segment.track(self.robot, kept.clamp(interval.0, interval.1));
+        let arc_length = tracked.arc_length;
+        let holds = |(from, to): Interval| from <= arc_length && arc_length <= to;
+        let curve = self.segment.curve();
+        let foot = if curve.fragment_of(intervals, interval).any(holds) {
             tracked
         } else {
-            let end = self.segment.at(tracked.arc_length.clamp(from, to));
+            let end = self.segment.at(if curve.is_closed() {
+                self.end_round(intervals, interval, (kept, arc_length))
+            } else {
+                arc_length.clamp(interval.0, interval.1)
+            });
             Foot { distance: (end.point - self.robot).norm(), ..end }
         };
         (foot.distance <= best.distance + self.margin).then_some(foot)
+    }
+
+    /// Of a closed curve the end of the fragment of an interval towards an arc length beyond it, that was come to from `kept` on the interval:
+    /// by the shorter way round.
+    fn end_round(&self, intervals: &[Interval], interval: Interval, (kept, beyond): (f64, f64)) -> f64 {
+        let (curve, (from, to)) = (self.segment.curve(), interval);
+        let is_half = from <= 0.0 || to >= curve.length();
+        match curve.across(intervals).filter(|_| is_half) {
+            Some(across) => {
+                let kept = if to >= curve.length() { kept - curve.length() } else { kept };
+                curve.next_to(kept, beyond).clamp(across.0, across.1)
+            }
+            None => curve.next_to(kept, beyond).clamp(from, to),
+        }
     }
 
     /// All other points as near as `best`, on its own fragment or on others. Of an arc that is nearest as a whole the point that is nearest to
@@ -170,6 +192,9 @@ impl Search<'_> {
             (foot.point - best.point).norm() > TIE && foot.distance <= best.distance + TIE * (1.0 + best.distance)
         };
         let on_others = intervals.iter().map(|interval| self.segment.nearest_within(self.robot, *interval));
+        // Where a closed curve begins is no end of a fragment across it: if it is nearest, it is so among all.
+        let (joined, end) = (self.segment.curve().joins(intervals), self.segment.curve().length() - TIE);
+        let on_others = on_others.filter(move |foot| !joined || TIE < foot.arc_length && foot.arc_length < end);
         // Asked for where they come to it alone: this search is the longer one.
         let all = core::iter::once_with(move || self.segment.nearest_all(self.robot)).flat_map(move |all| {
             let inside = |foot: &Foot| intervals.iter().any(|(a, b)| *a <= foot.arc_length && foot.arc_length <= *b);

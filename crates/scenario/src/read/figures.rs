@@ -83,5 +83,27 @@ fn figure(node: &Node, scenario: &Scenario) -> Result<Figure, ConfigError> {
         };
     known("robots", &figure.robots, ranks.iter().map(String::as_str).collect())?;
     known("cases", &figure.cases, cases)?;
+    let needs_headings = matches!(figure.drawing, Drawing::Misalignments | Drawing::Curvatures);
+    if needs_headings && !all_have_headings(scenario, &figure.cases) {
+        let problem = "is a picture of robots with headings, but here robots are points, which have none";
+        let remedy = match scenario.task {
+            Task::GoalTracking(_) => "name `cases` with a `plant`, or draw errors, speeds or trajectories",
+            _ => "draw errors, speeds or trajectories",
+        };
+        return Err(map.error("draws", problem, remedy));
+    }
     Ok(figure)
+}
+
+/// Whether the robots of these cases, of all where none are named, have headings of their own: unicycles, and robots of 3.1.1. That of a
+/// point would be where it moves, and jump wherever it turns back.
+fn all_have_headings(scenario: &Scenario, cases: &[String]) -> bool {
+    match &scenario.task {
+        Task::Regulating(_) => true,
+        Task::GoalTracking(task) => {
+            let mut drawn = task.cases.iter().filter(|case| cases.is_empty() || cases.contains(&case.name));
+            drawn.all(|case| case.plant.is_some())
+        }
+        Task::Directed(_) | Task::Nearest(..) | Task::Queue(_) | Task::Launch(_) => false,
+    }
 }

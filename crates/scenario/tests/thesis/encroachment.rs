@@ -1,5 +1,5 @@
 //! Walls that lie along the segment at the reach of their repulsion: round numbers, at which searches by halving would hang.
-use super::{folder, scenario_with};
+use super::{folder, run_scenario, scenario_with};
 use trench_scenario::{Measures, Scenario, Simulation, parse};
 
 /// Runs for some steps; whether something of the segment was left for all robots all the time.
@@ -41,4 +41,26 @@ fn a_wall_that_moves_along_the_segment_at_the_reach() {
         encroaching: obstacles\nrobots:\n- {position: [0.6, 0.9]}\n";
     let name = folder().join("bed.yaml").display().to_string();
     assert!(stays_free(&parse(&name, text).unwrap(), 10_000));
+}
+
+/// A circle of which obstacles leave 7 m about the point where it begins, where a robot needs 5 m: as on the same arc.
+#[test]
+fn a_fragment_across_the_beginning_of_a_circle_is_one() {
+    let ends = ["{kind: circle, ", "{kind: arc, start_angle: -3.0, sweep: 6.0, "].map(|segment| {
+        let text = format!(
+            "{{name: t, kind: nearest_points, duration: 5.0, step: 0.002, method: semi_implicit_euler, tolerance: 0.05,
+              segment: {segment} centre: [0.0, 0.0], radius: 10.0}}, trench: {{kind: hyperbolic, alpha: 10.0, a: 1.0}}, damping: 5.0,
+              zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2,
+                edge: continuous, full_acceleration: 1.0e+3}},
+              obstacles: [{{polygon: [[-12.0, -12.0], [8.4, -12.0], [8.4, 12.0], [-12.0, 12.0]]}}], clearance: 1.0,
+              obstacle_potential: {{pole: 0.0, cut: 1.0, strength: 10.0, m: 2, edge: continuous}}, encroaching: obstacles,
+              seeking: {{room: 5.0, transit_margin: 0.01, settled_distance: 0.05, settled_speed: 0.05}},
+              robots: [{{position: [14.0, 0.5]}}]}}"
+        );
+        let file = parse("own.yaml", &text).unwrap_or_else(|error| panic!("{error}"));
+        let case = run_scenario(&file, &[]).0.cases.remove(0);
+        assert_eq!((case.robots[0].no_fragment_since, case.conforms_after.is_some()), (None, true), "{case:?}");
+        (case.conforms_after, case.robots[0].position.map(|along| (along * 1e9).round()))
+    });
+    assert_eq!(ends[0], ends[1]);
 }

@@ -24,7 +24,7 @@ fn the_rule_orders_a_team_in_any_order() {
         assert_eq!(found.task, ruled.task);
     }
     let case = run_scenario(&ruled, &[]).0.cases.remove(0);
-    assert!(case.robots.iter().all(|robot| robot.error < 0.1) && case.in_zone_1 == 0.0, "{case:?}");
+    assert!(case.robots.iter().all(|robot| robot.error < 0.1) && case.in_zone_1 == Some(0.0), "{case:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Figures 4.1 to 4.8, which need no run.
 
-use super::super::axes::short;
 use super::super::style::{Picture, REFERENCE, colour};
+use super::super::ticks::short;
 use super::diagram::Diagram;
 use super::{SMALL, framed};
 use plotters::style::RGBColor;

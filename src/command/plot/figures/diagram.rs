@@ -1,9 +1,12 @@
 //! Diagrams of one quantity over another.
 
-use super::super::axes::short;
 use super::super::clip::clip;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::super::ticks::Ticks;
 use plotters::prelude::*;
+
+/// Marks of the horizontal and the vertical axis, at most.
+const MARKS: [usize; 2] = [11, 8];
 
 /// A diagram's axes.
 pub(super) struct Diagram<'a> {
@@ -36,9 +39,11 @@ impl Diagram<'_> {
             .axis_desc_style(font(13))
             .x_desc(self.names[0])
             .y_desc(self.names[1])
-            .x_labels(11)
-            .y_labels(8);
-        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+            .x_labels(MARKS[0])
+            .y_labels(MARKS[1]);
+        let (across, up) = (Ticks::of((left, right), MARKS[0]), Ticks::of((bottom, top), MARKS[1]));
+        let (horizontal, vertical) = (|value: &f64| across.label(*value), |value: &f64| up.label(*value));
+        mesh.x_label_formatter(&horizontal).y_label_formatter(&vertical);
         mesh.draw().map_err(text)?;
         if !self.filled.is_empty() {
             chart.draw_series([Polygon::new(self.filled.to_vec(), REFERENCE.mix(0.15))]).map_err(text)?;

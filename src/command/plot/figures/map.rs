@@ -1,9 +1,9 @@
 //! The field with segment, obstacles, paths and robots.
 
-use super::super::axes::short;
 use super::super::clip::clip;
 use super::super::extensions::draw_extensions;
 use super::super::style::{Area, FAINT, REFERENCE, UNIT, font, line, text};
+use super::super::ticks::Ticks;
 use super::arrow::arrow;
 use super::obstacles;
 use super::select::{Selection, Shown};
@@ -20,6 +20,10 @@ pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ran
 /// Room for the numbers and names of the axes, units.
 const LABELS: [u32; 2] = [58 * UNIT, 42 * UNIT];
 const MARGIN: u32 = 12 * UNIT;
+/// The last number of the horizontal axis is half beside it.
+const RIGHT: u32 = 24 * UNIT;
+/// Marks of an axis, at most.
+const MARKS: usize = 9;
 /// The square at the end of a path, about it, and a robot's name, from it, units.
 const END: [(i32, i32); 2] = [(-3 * UNIT as i32, -3 * UNIT as i32), (3 * UNIT as i32, 3 * UNIT as i32)];
 const NAME: (i32, i32) = (3 * UNIT as i32, -14 * UNIT as i32);
@@ -64,7 +68,7 @@ impl Field {
     /// The height, in units, of a map of this width with equal scales.
     pub(super) fn height(self, width: u32) -> u32 {
         let [left, right, bottom, top] = self.0;
-        let plot_width = f64::from(width - LABELS[0] - 2 * MARGIN);
+        let plot_width = f64::from(width - LABELS[0] - MARGIN - RIGHT);
         (plot_width * (top - bottom) / (right - left)).round() as u32 + LABELS[1] + 2 * MARGIN
     }
 
@@ -84,14 +88,21 @@ impl Field {
         let (window @ [left, right, bottom, top], bodies) = (self.0, arrows.is_some());
         let mut chart = ChartBuilder::on(area)
             .margin(MARGIN)
+            .margin_right(RIGHT)
             .y_label_area_size(LABELS[0])
             .x_label_area_size(LABELS[1])
             .build_cartesian_2d(left..right, bottom..top)
             .map_err(text)?;
         let mut mesh = chart.configure_mesh();
         mesh.bold_line_style(line(FAINT, 1)).light_line_style(TRANSPARENT).axis_style(line(BLACK.mix(0.6), 1));
-        mesh.set_all_tick_mark_size(4 * UNIT).label_style(font(12)).axis_desc_style(font(13)).x_labels(9).y_labels(9);
-        mesh.x_label_formatter(&|value| short(*value)).y_label_formatter(&|value| short(*value));
+        mesh.set_all_tick_mark_size(4 * UNIT)
+            .label_style(font(12))
+            .axis_desc_style(font(13))
+            .x_labels(MARKS)
+            .y_labels(MARKS);
+        let (across, up) = (Ticks::of((left, right), MARKS), Ticks::of((bottom, top), MARKS));
+        let (horizontal, vertical) = (|value: &f64| across.label(*value), |value: &f64| up.label(*value));
+        mesh.x_label_formatter(&horizontal).y_label_formatter(&vertical);
         mesh.x_desc("x (m)").y_desc("y (m)").draw().map_err(text)?;
         for part in clip(&segment(scenario), window) {
             let dashes = DashedLineSeries::new(part, 6 * UNIT, 4 * UNIT, line(REFERENCE, 1));

@@ -103,7 +103,8 @@ fn framed(
 
 /// What signs on maps mean: those alone that this scenario has. Robots have arrows as long as their way of so many seconds, or none.
 fn field_notes(scenario: &Scenario, arrows: Option<f64>) -> String {
-    let robot = arrows.map(|seconds| format!("● robot,  → its velocity: the way of {} s", super::axes::short(seconds)));
+    let robot =
+        arrows.map(|seconds| format!("● robot,  → its velocity: the way of {} s", super::ticks::short(seconds)));
     let signs = match (&scenario.task, robot) {
         (Task::Regulating(_), _) => "● start,  ■ end,  × goal".to_owned(),
         (Task::GoalTracking(_), Some(robot)) => format!("{robot},  ○ its goal point"),
@@ -141,7 +142,7 @@ fn snapshots(figure: &Figure, scenario: &Scenario, selection: &Selection<'_>, en
         for (cell, &time) in area.split_evenly((rows, columns)).iter().zip(&times) {
             let (title, map) = cell.split_vertically(TITLE);
             let middle = (WIDTH / columns as u32) as i32 / 2;
-            let name = format!("t = {} s", super::axes::short(time));
+            let name = format!("t = {} s", super::ticks::short(time));
             title.draw(&Text::new(name, (middle, TITLE / 2), centred(14))).map_err(text)?;
             field.draw(&map, scenario, selection, (time, arrows))?;
         }
