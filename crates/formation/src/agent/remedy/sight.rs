@@ -151,8 +151,14 @@ impl Sight<'_> {
                 && (0..self.around.apparent.len()).all(|index| self.approach(index, point).gap >= self.potential.cut())
         };
         let mut best: Option<(f64, Vector2<f64>)> = None;
-        for (low, high) in self.fragments {
-            let (low, high) = (low.max(middle - reach), high.min(middle + reach));
+        // Round a closed segment places lie on either side of where arc lengths begin.
+        let curve = segment.curve();
+        let rounds: &[f64] = if curve.is_closed() { &[-1.0, 0.0, 1.0] } else { &[0.0] };
+        for ((low, high), round) in
+            self.fragments.iter().flat_map(|fragment| rounds.iter().map(move |round| (fragment, round)))
+        {
+            let shift = round * curve.length();
+            let (low, high) = (low.max(middle - reach - shift), high.min(middle + reach - shift));
             let count = libm::ceil((high - low) / (STRIDE * radii.rho_hat)).max(0.0) as u32;
             for index in 0..=count {
                 let share = f64::from(index) / f64::from(count.max(1));
