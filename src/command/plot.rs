@@ -205,6 +205,10 @@ fn read(path: &Path) -> Result<(Run, Option<Scenario>), PlotError> {
         }
         let manner = sim::scenario::Manner { bag: None, progress: false, threads: 1 };
         let done = sim::scenario::run(&scenario, &text, manner).map_err(|error| error.of_run(path))?;
+        // Drawn all the same: that is how one sees where.
+        if let Some(collision) = done.summary.first_collision() {
+            eprintln!("trench plot: {}: collided: {collision}", path.display());
+        }
         return Ok((done.run, Some(scenario)));
     }
     if path.extension().is_some_and(|extension| extension == "csv") {
