@@ -2,16 +2,12 @@
 
 use crate::Verdict;
 use crate::verdict::number;
+use trench_formation::avoidance::is_obstructed;
 use trench_formation::curve::Placed;
 use trench_formation::kinematics::PointState;
 use trench_formation::simulate::ChainScenario;
 use trench_formation::trench::AnyTrench;
 use trench_formation::zoning::Radii;
-
-/// The way along the segment is looked at each so far, of the reach of obstacles.
-const STRIDE: f64 = 0.25;
-/// But at no more points than so many.
-const MOST: f64 = 10_000.0;
 
 /// Judges the links at the start; `recovers`: the scenario, if robots that have lost their team come back to it.
 pub(crate) fn connection(
@@ -39,7 +35,7 @@ pub(crate) fn connection(
             let comes =
                 format!("{}, beyond the {limit} m that links reach, and comes to it along the segment", begins(index));
             // Who is led goes round what stands there; another one may rest before it for good.
-            let note = task.remedies.is_none() && is_obstructed(task, &robots[index..index + 2]);
+            let note = task.remedies.is_none() && lies_behind_obstacles(task, &robots[index..index + 2]);
             let before = if note { ", if it gets past the obstacles on it: give remedies" } else { "" };
             Verdict { note, ..verdict(true, format!("{comes} (Remark 6.2.1){before}")) }
         }
@@ -51,13 +47,9 @@ pub(crate) fn connection(
 }
 
 /// Whether obstacles repel a robot somewhere on the segment between it and its leader, at the start.
-fn is_obstructed(task: &ChainScenario<AnyTrench>, pair: &[PointState]) -> bool {
+fn lies_behind_obstacles(task: &ChainScenario<AnyTrench>, pair: &[PointState]) -> bool {
     let segment = Placed::new(&task.segment, task.carriage.at(0.0).0);
     let [to, from] = [0, 1].map(|index| segment.nearest(pair[index].position).arc_length);
-    let Ok(apparent) = task.combined(&task.obstacles) else { return false };
-    let count = libm::ceil((to - from).abs() / (STRIDE * task.potential.cut())).clamp(1.0, MOST);
-    (0..=count as u32).any(|index| {
-        let point = segment.at(from + (to - from) * (f64::from(index) / count)).point;
-        apparent.iter().any(|obstacle| obstacle.shape.outline().approach(point).gap < task.potential.cut())
-    })
+    let apparent = task.combined(&task.obstacles);
+    apparent.is_ok_and(|apparent| is_obstructed(&segment, &apparent, task.potential.cut(), (from, to - from)))
 }

@@ -130,7 +130,7 @@ fn directed(subject: &str, task: &Directed) -> Vec<Verdict> {
 
 fn nearest(subject: &str, task: &ChainScenario<AnyTrench>, duration: f64) -> Vec<Verdict> {
     let radii = *task.zoning.radii();
-    let body = body_radius(task);
+    let body = task.body_radius();
     let mut verdicts = vec![
         potential(subject, &task.law.trench, RANGE),
         zones(
@@ -208,7 +208,7 @@ fn feasibility_of_nearest(subject: &str, task: &ChainScenario<AnyTrench>, durati
         .map(|fragments| room(subject, &task.segment, fragments.intervals(), task.robots.len(), radii.rho_hat));
     let later = room_on_the_way(subject, task, duration);
     let goal = task.team_goal.and_then(|at| goal(subject, &task.segment, at, radii, task.robots.len()));
-    let kept_off = goal_among_obstacles(subject, task, body_radius(task).unwrap_or(0.0), duration);
+    let kept_off = goal_among_obstacles(subject, task, task.body_radius().unwrap_or(0.0), duration);
     let recovers = task.options.recovery.is_some().then_some(task);
     let connection = connection(subject, radii, &task.robots, recovers);
     room.into_iter().chain(later).chain([connection]).chain(goal).chain(kept_off).collect()
@@ -229,9 +229,4 @@ pub(crate) fn least_sine(task: &ChainScenario<AnyTrench>) -> f64 {
         Some(Method::Directed { direction: Some(along), .. }) => task.segment.least_sine(along),
         _ => 1.0,
     }
-}
-
-/// Radius of the robots' bodies, where the scenario says one.
-fn body_radius(task: &ChainScenario<AnyTrench>) -> Option<f64> {
-    task.options.safety.map(|safety| safety.radius).or(task.encroaching.robot_radius())
 }

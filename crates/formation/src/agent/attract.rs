@@ -76,15 +76,17 @@ impl<T: Trench> Agent<T> {
         };
         // Where Psi pulls less than the trench would, it does no harm.
         let (zoning, trench) = (&self.settings.zoning, &self.settings.law.trench);
-        let is_back = leader.is_none_or(|leader| {
-            let apart = (leader.position - robot).norm();
-            let beyond = apart - zoning.radii().rho;
-            beyond <= 0.0 || zoning.force(apart) <= trench.slope(beyond)
-        });
+        let is_back = || {
+            leader.is_none_or(|leader| {
+                let apart = (leader.position - robot).norm();
+                let beyond = apart - zoning.radii().rho;
+                beyond <= 0.0 || zoning.force(apart) <= trench.slope(beyond)
+            })
+        };
         self.tie = match (asked, self.tie) {
             (Asked::Point(_), _) => Tie::Loose,
             _ if leader.is_none() && goal.is_some() => Tie::Gentle,
-            (_, Tie::Loose | Tie::Gentle) if !is_back => Tie::Gentle,
+            (_, Tie::Loose | Tie::Gentle) if !is_back() => Tie::Gentle,
             _ => Tie::Whole,
         };
         Attracted { attracting, foot: on_segment, place: Some(drawn.point()), deviation, tie: self.tie }

@@ -17,16 +17,34 @@ pub fn behind_obstacles(
     reach: f64,
     (from, left): (f64, f64),
 ) -> Option<f64> {
-    let near = |arc_length: f64| {
-        let point = segment.at(arc_length).point;
-        apparent.iter().any(|obstacle| obstacle.shape.outline().approach(point).gap < reach)
-    };
+    let near = |arc_length: &f64| is_near(segment, apparent, reach, *arc_length);
+    let ahead = (AHEAD / STRIDE) as usize;
+    let first = looked_at(reach, (from, left)).take(ahead + 1).position(|arc_length| near(&arc_length))?;
+    let behind = looked_at(reach, (from, left)).skip(first).find(|arc_length| !near(arc_length));
+    Some(behind.unwrap_or(from + left))
+}
+
+/// Whether apparent obstacles keep a robot from the segment, within `reach` (m), anywhere from arc length `from` (m) as far as `left` (m, with
+/// its sign).
+pub fn is_obstructed(
+    segment: &Placed<'_>,
+    apparent: &[ApparentObstacle],
+    reach: f64,
+    (from, left): (f64, f64),
+) -> bool {
+    looked_at(reach, (from, left)).any(|arc_length| is_near(segment, apparent, reach, arc_length))
+}
+
+/// Arc lengths (m) at which a way is looked at, both ends too.
+fn looked_at(reach: f64, (from, left): (f64, f64)) -> impl Iterator<Item = f64> {
     let stride = STRIDE * reach;
     let count = libm::ceil(left.abs() / stride).min(f64::from(MOST)) as u32;
-    let at = |index: u32| from + (f64::from(index) * stride).min(left.abs()).copysign(left);
-    let ahead = (AHEAD / STRIDE) as u32;
-    let first = (0..=count.min(ahead)).find(|&index| near(at(index)))?;
-    Some((first..=count).map(at).find(|&arc_length| !near(arc_length)).unwrap_or(from + left))
+    (0..=count).map(move |index| from + (f64::from(index) * stride).min(left.abs()).copysign(left))
+}
+
+fn is_near(segment: &Placed<'_>, apparent: &[ApparentObstacle], reach: f64, arc_length: f64) -> bool {
+    let point = segment.at(arc_length).point;
+    apparent.iter().any(|obstacle| obstacle.shape.outline().approach(point).gap < reach)
 }
 
 #[cfg(test)]
@@ -52,5 +70,8 @@ mod tests {
         assert_eq!(behind(12.95, 5.0), None);
         assert_eq!(behind(5.0, 4.0), Some(9.0), "the way ends before the obstacle does");
         assert_eq!(behind_obstacles(&segment, &[], 1.0, (5.0, 13.0)), None);
+        let obstructed = |from: f64, left: f64| is_obstructed(&segment, &apparent, 1.0, (from, left));
+        assert!(obstructed(3.0, 15.0) && obstructed(19.0, -15.0), "however far off");
+        assert!(!obstructed(3.0, 3.0) && !obstructed(13.0, 6.0));
     }
 }

@@ -14,7 +14,7 @@ mod lines;
 mod watch;
 
 pub use arc::auxiliary_arc;
-pub use behind::behind_obstacles;
+pub use behind::{behind_obstacles, is_obstructed};
 pub use compared::ComparedRepulsion;
 pub use escape::{escape, way_round};
 pub use goal_potentials::{GoalPotential, VelocityPotential};

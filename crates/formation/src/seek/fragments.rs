@@ -72,16 +72,15 @@ impl Fragments {
     /// open queue there are as many places as can be counted. A group across the point where a closed curve begins is two, each with all places.
     pub fn groups(&self, segment: &Curve, gap: f64, pitch: f64) -> Vec<(Interval, usize)> {
         let mut groups: Vec<(Interval, usize)> = Vec::new();
-        let last = self.intervals.last().filter(|_| segment.joins(&self.intervals));
+        let places_on = |length: f64| (libm::floor(length / (2.0 * pitch)) as usize).saturating_add(1);
+        let joined = self.intervals.last().filter(|_| segment.joins(&self.intervals));
         for (index, &(from, to)) in self.intervals.iter().enumerate() {
-            // The half at the end is counted with that at the beginning.
-            let (counts, more) = match last {
-                Some(last) if index == 0 => (true, last.1 - last.0),
-                Some(_) => (index + 1 < self.intervals.len(), 0.0),
-                None => (true, 0.0),
+            let places = match joined {
+                // The half at the end is counted with that at the beginning.
+                Some(last) if index == 0 => places_on(to - from + (last.1 - last.0)),
+                Some(_) if index + 1 == self.intervals.len() => 0,
+                _ => places_on(to - from),
             };
-            let places = (libm::floor((to - from + more) / (2.0 * pitch)) as usize).saturating_add(1);
-            let places = if counts { places } else { 0 };
             match groups.last_mut() {
                 Some((span, sum)) if from - span.1 <= gap => {
                     span.1 = to;
@@ -92,7 +91,7 @@ impl Fragments {
         }
         if let [(first, before), .., (last, behind)] = groups.as_mut_slice()
             && segment.is_closed()
-            && (segment.joins(&self.intervals) || first.0 + segment.length() - last.1 <= gap)
+            && (joined.is_some() || first.0 + segment.length() - last.1 <= gap)
         {
             let all = before.saturating_add(*behind);
             (*before, *behind) = (all, all);

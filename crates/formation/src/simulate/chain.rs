@@ -53,7 +53,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
         for (index, robot) in scenario.robots.iter().enumerate() {
             for obstacle in &scenario.obstacles {
                 let gap = obstacle.shape.outline().approach(robot.position).gap;
-                let reach = scenario.body_radius() - gap;
+                let reach = scenario.body_radius().unwrap_or(0.0) - gap;
                 if gap < 0.0 {
                     return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id));
                 }

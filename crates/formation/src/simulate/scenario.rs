@@ -156,10 +156,9 @@ impl<T> ChainScenario<T> {
         combine_unless(obstacles, self.clearance, |a, b| wall(a).is_some_and(|of| wall(b) == Some(of)))
     }
 
-    /// Of the robots' bodies, m, by the safety filter or else by what encroaches; 0 where neither names one.
-    pub(super) fn body_radius(&self) -> f64 {
-        let named = self.options.safety.map(|safety| safety.radius);
-        named.or(self.encroaching.robot_radius()).unwrap_or(0.0)
+    /// Of the robots' bodies, m, by the safety filter or else by what encroaches; none where neither names one.
+    pub fn body_radius(&self) -> Option<f64> {
+        self.options.safety.map(|safety| safety.radius).or(self.encroaching.robot_radius())
     }
 
     /// Whether any obstacle moves.
@@ -234,7 +233,7 @@ impl<T> ChainScenario<T> {
         if let Some(index) = self.robots.iter().position(|robot| !finite(robot.position + robot.velocity)) {
             return Err(ScenarioError::RobotNotFinite(index + 1));
         }
-        let (near, touch) = (self.zoning.radii().rho_underbar, 2.0 * self.body_radius());
+        let (near, touch) = (self.zoning.radii().rho_underbar, 2.0 * self.body_radius().unwrap_or(0.0));
         let mut neighbours = Neighbours::default();
         neighbours.update(near.max(touch), &self.robots, &[]);
         for (index, robot) in self.robots.iter().enumerate() {

@@ -152,11 +152,9 @@ pub(super) fn nearest(map: &Map<'_>, timing: &Timing) -> Result<Task, ConfigErro
         robots,
         law: law(map)?,
         zoning,
-        potential: match map.opt_map("obstacle_potential")? {
-            Some(given) => potential(&given)?,
+        potential: match map.opt_node("obstacle_potential") {
             None if listed.obstacles.is_empty() => without_obstacles(map, &zoning)?,
-            // Says that it is missing.
-            None => potential(&map.map("obstacle_potential")?)?,
+            _ => potential(map)?,
         },
         obstacles: listed.obstacles,
         clearance: not_negative(map, "clearance", 0.0)?,
@@ -299,9 +297,10 @@ fn without_obstacles(map: &Map<'_>, zoning: &Zoning) -> Result<ObstaclePotential
 
 /// `obstacle_potential`.
 fn potential(map: &Map<'_>) -> Result<ObstaclePotential, ConfigError> {
-    let (pole, cut) = (not_negative(map, "pole", 0.0)?, positive(map, "cut")?);
-    let full = positive_or(map, "full_acceleration", FULL)?;
-    let made = ObstaclePotential::new(pole, cut, positive(map, "strength")?, sharpness(map)?, edge(map)?, full);
+    let map = map.map("obstacle_potential")?;
+    let (pole, cut) = (not_negative(&map, "pole", 0.0)?, positive(&map, "cut")?);
+    let full = positive_or(&map, "full_acceleration", FULL)?;
+    let made = ObstaclePotential::new(pole, cut, positive(&map, "strength")?, sharpness(&map)?, edge(&map)?, full);
     let made = made.map_err(|error| map.error("cut", error.to_string(), "mend the gaps"))?;
     map.finish()?;
     Ok(made)

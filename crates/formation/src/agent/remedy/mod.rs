@@ -230,8 +230,7 @@ impl Remedy {
                         // A teammate may stand where the way ends.
                         let gap = sight.approach(index, robot).gap;
                         let (waits, deviation) = (gap > 0.0 && sight.waits(robot, carrot), (target - robot).norm());
-                        let is_at_end = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
-                        if is_at_end {
+                        if sight.has_gone(robot, carrot, way) {
                             // The hull has grown since: more of its members is known.
                             *self = Self::default();
                             self.choose(sight, robot, drawn);
@@ -247,7 +246,7 @@ impl Remedy {
                 }
             }
             State::Led { until, carrot, way, own } => {
-                let there = way.is_empty() && (*carrot - robot).norm() <= sight.remedies.watch.arrived;
+                let there = sight.has_gone(robot, carrot, way);
                 // Another place was chosen meanwhile, or the segment has gone on.
                 let astray = !*own && (way.last().unwrap_or(carrot) - target).norm() > sight.zoning.radii().rho_hat;
                 if there || astray || sight.time() >= *until {

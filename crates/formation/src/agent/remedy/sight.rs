@@ -48,6 +48,11 @@ impl Sight<'_> {
         (carrot - robot).norm() >= self.potential.cut()
     }
 
+    /// Whether a robot has come to the end of the way that its `carrot` leads it.
+    pub(super) fn has_gone(&self, robot: Vector2<f64>, carrot: &Vector2<f64>, way: &[Vector2<f64>]) -> bool {
+        way.is_empty() && (carrot - robot).norm() <= self.remedies.watch.arrived
+    }
+
     /// A way round what moves goes along with it while the robot is near it, but for its end: else it would be overrun.
     pub(super) fn carry(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut [Vector2<f64>]) {
         let reach = self.potential.cut() + self.remedies.watch.radius;
