@@ -28,9 +28,10 @@ from scipy.spatial import cKDTree
 SPEED = 0.5
 TICK = 0.033
 STEPS = 20
-# Of a run of `trench sim`, for 250 and 20,000 robots alike, so that what a run does once weighs the same.
+COUNTS = (250, 20000)
+# Of a run of `trench sim`, for few and many robots alike, so that what a run does once weighs the same.
 SIM_STEPS = 3200
-SIM_RUNS = {250: 15, 20000: 5}
+SIM_ROUNDS = 5
 # As far as two robots can meet within pyrvo's horizon of 2 s, m.
 RANGE = 2.0 * SPEED * 2.0 + 0.22
 
@@ -126,12 +127,24 @@ def check_motion(program, folder, count):
         sys.exit(f"{count} robots of trench sim are not where the library's are")
 
 
-def sim(program, folder, count):
-    """Best and median seconds an agent step of `trench sim` on one thread, and the best on two."""
-    check_motion(program, folder, count)
-    path, times = scenario(folder, count, SIM_STEPS), SIM_RUNS[count]
-    one, two = ([simulated(program, path, threads) / (SIM_STEPS * count) for _ in range(times)] for threads in (1, 2))
-    return min(one), statistics.median(one), min(two)
+def sims(program, folder):
+    """Best and median seconds an agent step of `trench sim` on one thread, and the best on two, for few robots and for many.
+
+    By turns: one run of many, then as many of few as make as many agent steps. A run of few by itself lasts a tenth of a second, and
+    the best of some of those is of a moment in which nobody else was at the caches; that of many would need eight such seconds.
+    """
+    paths = {}
+    for count in COUNTS:
+        check_motion(program, folder, count)
+        paths[count] = scenario(folder, count, SIM_STEPS)
+
+    def cost(count, threads, runs):
+        return sum(simulated(program, paths[count], threads) for _ in range(runs)) / (runs * SIM_STEPS * count)
+
+    one = [{count: cost(count, 1, max(COUNTS) // count) for count in COUNTS} for _ in range(SIM_ROUNDS)]
+    two = [{count: cost(count, 2, 1) for count in COUNTS} for _ in range(SIM_ROUNDS)]
+    times = {count: sorted(turn[count] for turn in one) for count in COUNTS}
+    return {count: (times[count][0], statistics.median(times[count]), min(turn[count] for turn in two)) for count in COUNTS}
 
 
 def main():
@@ -143,8 +156,8 @@ def main():
         lines = (line.split("\t") for line in (folder / "times.tsv").read_text().splitlines())
         ours = {name: (float(best), float(median)) for name, best, median in lines}
         print("best (median) of 15, an agent step; equal motion on one thread and two")
-        costs = {"library": [], "trench sim": []}
-        for count in (250, 20000):
+        peers, costs = {}, {"library": []}
+        for count in COUNTS:
             best, median, neighbours = peer(rows(folder, f"starts_{count}.txt"), rows(folder, f"ends_{count}.txt"))
             (mine, middle), (both, _) = (ours[f"crowd: {count} robots, {threads} threads"] for threads in (1, 2))
             near = crowding(rows(folder, f"moved_{count}.txt"), RANGE)
@@ -153,15 +166,18 @@ def main():
                 f"threads {1e6 * both:.3f} us, {near:.1f} others within {RANGE} m at the end; pyrvo {1e6 * best:.3f} ({1e6 * median:.3f}) us with {neighbours:.1f} neighbours; "
                 f"{best / mine:.2f} times"
             )
+            peers[count] = best
             costs["library"].append(mine)
-            if len(sys.argv) > 1:
-                mine, middle, both = sim(sys.argv[1], folder, count)
+        if len(sys.argv) > 1:
+            print(f"best (median) of {SIM_ROUNDS} rounds by turns, of as many agent steps each")
+            simulated_costs = sims(sys.argv[1], folder)
+            for count, (mine, middle, both) in simulated_costs.items():
                 print(
                     f"{count:>6} robots, trench sim: {1e6 * mine:.3f} ({1e6 * middle:.3f}) us, {1e-6 / mine:.2f} million a second; on two "
-                    f"threads {1e6 * both:.3f} us; pyrvo {1e6 * best:.3f} us; {best / mine:.2f} times"
+                    f"threads {1e6 * both:.3f} us; pyrvo {1e6 * peers[count]:.3f} us; {peers[count] / mine:.2f} times"
                 )
-                costs["trench sim"].append(mine)
-        for name, (few, many) in ((name, pair) for name, pair in costs.items() if pair):
+            costs["trench sim"] = [mine for mine, _, _ in simulated_costs.values()]
+        for name, (few, many) in costs.items():
             print(f"a robot of 20000 costs {100 * (many / few - 1):.0f} % more than one of 250, {name}")
 
 
