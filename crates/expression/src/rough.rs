@@ -35,6 +35,8 @@ const FINEST: f64 = 1.0 / (1_u64 << 46) as f64;
 const OVERLAP: f64 = 1e-3;
 /// After so many cells the rest counts as rough.
 const MOST_CELLS: usize = 200_000;
+/// As far from a place where a value is lost, of x or at all, it is shown as that place.
+const NEXT: f64 = 1e-6;
 
 impl Rough {
     /// x in the middle of the place, with the digits that are known; where a whole stretch begins, its end nearer to 0.
@@ -84,6 +86,20 @@ impl Expression {
             }
         }
         found
+    }
+
+    /// A value of x to show for a rough place (see [`Rough::x`]): where the value is lost, one at which it is, or that is next to such.
+    pub fn shown(&self, rough: &Rough) -> f64 {
+        let lost = |x: f64| {
+            let beside = NEXT * x.abs().max(1.0);
+            [x, x - beside, x + beside].into_iter().any(|x| !self.value(x).is_finite())
+        };
+        let (x, ends) = (rough.x(), [rough.low, rough.high]);
+        if rough.roughness == Roughness::Value && !lost(x) {
+            ends.into_iter().find(|x| lost(*x)).unwrap_or(x)
+        } else {
+            x
+        }
     }
 
     /// What cannot be bounded on a cell.

@@ -52,6 +52,7 @@ fn unusable_expressions_are_refused() {
     check("1/x", -1.0, 1.0, "is not finite at x = 0 (the division at column 2)");
     check("1/x", 0.0, 1.0, "is not finite at x = 0");
     check("sqrt(x)", -1.0, 1.0, "is not finite at x = -1 (sqrt at column 1)");
+    check("sqrt(x)", -5.0, 100.0, "is not finite at x = -5 (sqrt at column 1)");
     check("sqrt(x)", 0.0, 1.0, "infinitely steep at x = 0");
     check("2 + abs(x - 0.25)", -1.0, 1.0, "is not twice differentiable at x = 0.25 (abs at column 5): end the segment");
     check("x * sign(x)", -1.0, 1.0, "jumps or is infinitely steep at x = 0 (sign at column 5)");

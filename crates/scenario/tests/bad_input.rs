@@ -111,7 +111,9 @@ fn obstacles() {
     check("7.11.yaml", euler, &format!("{euler}\nsafety: {{body_radius: 0.1}}"), &["safety", "give limits"]);
     check("7.11.yaml", euler, &format!("{euler}\nsight: {{range: 0.0, piece: 0.5}}"), &["sight.range", "not positive"]);
     let fine = "sight: {range: 4.0, piece: 1.0e-9}";
-    check("7.11.yaml", euler, &format!("{euler}\n{fine}"), &["sight", "more than 100000", "longer `piece`"]);
+    check("7.11.yaml", euler, &format!("{euler}\n{fine}"), &["sight", "more than 10000", "longer `piece`"]);
+    let short = "sight: {range: 1.5, piece: 10.0}";
+    check("7.11.yaml", euler, &format!("{euler}\n{short}"), &["sight", "not before they repel it", "see farther"]);
     let sight = "sight: {range: 4.0, piece: 0.5}";
     check(
         "9.1_bent_corridor.yaml",
@@ -296,6 +298,17 @@ fn keys_that_would_do_nothing() {
     check("4.6_square.yaml", "kind: launch", "kind: launch\ntolerance: 0.1", &["tolerance", "unknown key"]);
     let moving = "kind: nearest_points\nsegment_motion: {velocity: [0.1, 0.0]}";
     check("7.15.yaml", "kind: nearest_points", moving, &["segment_motion", "moves", "or compared"]);
+    let wall = "- {walls: [[0.6, 6.0], [0.6, 3.0], [4.0, 3.0], [4.0, 6.0]]}";
+    let moving = "- {walls: [[0.6, 6.0], [0.6, 3.0]], velocity: [0.5, 0.0]}";
+    check("7.15.yaml", wall, moving, &["obstacles[1].velocity", "methods are compared", "they rest"]);
+    // Walls that close, or go on straight, are compared as they are.
+    for wall_that_is_no_polygon in ["[[1, 3], [4, 3], [4, 5], [1, 5], [1, 3]]", "[[1, 3], [2, 3], [4, 3]]"] {
+        let text = file("7.15.yaml").replace(wall, &format!("- {{walls: {wall_that_is_no_polygon}}}"));
+        let scenario = parse("7.15.yaml", &text).unwrap_or_else(|error| panic!("{error}"));
+        trench_scenario::Simulation::new(&scenario).unwrap();
+    }
+    // On an outline is in collision.
+    check("7.15.yaml", "[-2.0, 12.0]", "[-2.0, 3.0]", &["robots[0]", "touches it"]);
     let text = file("7.15.yaml");
     let exponent = text.lines().find_map(|line| line.split("goal_exponent: ").nth(1)).unwrap();
     let exponent = exponent.split([',', '}']).next().unwrap();

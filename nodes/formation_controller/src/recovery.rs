@@ -48,7 +48,7 @@ fn point_ahead(
 ) -> GoalMotion {
     let segment = Placed::new(way.curve, map_from_segment);
     let here = segment.nearest(robot);
-    let left = way.curve.nearest(way.team_goal).arc_length - here.arc_length;
+    let left = way.curve.way(here.arc_length, way.curve.nearest(way.team_goal).arc_length);
     if let Some(behind) = behind_obstacles(&segment, apparent, reach, (here.arc_length, left)) {
         return motion.at(segment.at(behind).point);
     }

@@ -3,16 +3,20 @@ use super::attract::Tie;
 use super::encroach::Encroachers;
 use super::law::Sum;
 use super::remedy::Remedy;
+use super::risen::{Pace, Risen};
 use super::surroundings::Moment;
 use super::{Action, AgentSettings, Driven, RemedyState, Surroundings, Work};
 use crate::Vector2;
 use crate::curve::Interval;
-use crate::hull::HullError;
+use crate::hull::{ApparentObstacle, HullError};
 use crate::kinematics::PointState;
 use crate::laws::Terms;
 use crate::seek::{Fragments, Seeker};
 use crate::trench::Trench;
 use std::sync::Arc;
+
+/// Without remedies, which say how fast, a hull rises through the whole potential in this time, s.
+const RISING: f64 = 1.0;
 
 /// One robot's controller.
 #[derive(Debug, Clone)]
@@ -22,6 +26,7 @@ pub struct Agent<T> {
     pub(super) seeker: Seeker,
     /// What few robots need is kept apart: a step passes over thousands of them.
     pub(super) remedy: Option<Box<Remedy>>,
+    pub(super) risen: Option<Box<Risen>>,
     pub(super) fragments: Fragments,
     pub(super) encroachers: Option<Box<Encroachers>>,
     /// How its leader draws it.
@@ -43,6 +48,7 @@ impl<T: Trench> Agent<T> {
             settings,
             seeker,
             remedy: None,
+            risen: None,
             fragments,
             encroachers: None,
             tie,
@@ -138,16 +144,18 @@ impl<T: Trench> Agent<T> {
     /// What [`Self::steer`] would say, which the robot does not do: it remembers nothing of it, and is not helped by remedies.
     pub fn foreseen(&self, around: &Surroundings<'_>, robot: PointState, since: f64) -> Action {
         let (settings, fragments) = (self.settings.clone(), self.fragments.clone());
-        let (remedy, encroachers, last, sensed) = (None, None, None, None);
-        let mut other = Self { settings, fragments, remedy, encroachers, last, sensed, ..*self };
+        let (remedy, risen, encroachers, last, sensed) = (None, None, None, None, None);
+        let mut other = Self { settings, fragments, remedy, risen, encroachers, last, sensed, ..*self };
         other.steer(around, robot, since)
     }
 
     #[inline(always)]
     fn steer_at(&mut self, around: &Surroundings<'_>, moment: &Moment<'_>, robot: PointState) -> Action {
         let now = around.time + moment.since;
-        let step = self.last.map_or(0.0, |last| (now - last).max(0.0));
+        let step = self.last.map(|last| (now - last).max(0.0));
         self.last = Some(now);
+        self.look_for_hulls(around, moment.since, robot, step);
+        let step = step.unwrap_or(0.0);
         let leader = around.leader.map(|leader| leader.state.coasted(moment.since));
         let attracted = self.attract(around, moment, (robot.position, leader), step);
         self.arrived = attracted.deviation <= self.settings.seeking.settled_distance;
@@ -167,6 +175,27 @@ impl<T: Trench> Agent<T> {
             zone: leader.map(|leader| self.settings.zoning.zone((leader.position - robot.position).norm())),
             remedy: self.remedy.as_ref().map_or(RemedyState::None, |remedy| remedy.state()),
         }
+    }
+
+    /// Sees how far hulls have risen; what is far from all of them remembers nothing.
+    #[inline(always)]
+    fn look_for_hulls(&mut self, around: &Surroundings<'_>, since: f64, robot: PointState, step: Option<f64>) {
+        let cut = self.settings.potential.cut();
+        let is_near = |(index, obstacle): (usize, &ApparentObstacle)| {
+            !obstacle.shape.is_beyond(robot.position - around.displacement(index, since), cut)
+        };
+        if around.clear > cut || !around.apparent.iter().enumerate().any(is_near) {
+            self.risen = None;
+            return;
+        }
+        let rising = self.settings.remedies.as_ref().map_or(cut / RISING, |remedies| remedies.rising);
+        let mut risen = self.risen.take().unwrap_or_default();
+        let seen = |index: usize| {
+            let remedy = self.remedy.as_ref().filter(|remedy| remedy.concerns(around.apparent[index].id))?;
+            Some(remedy.approach(around, since, index, robot.position).gap)
+        };
+        let is_near = risen.follow(around, (since, robot), Pace { cut, rising, step }, seen);
+        self.risen = is_near.then_some(risen);
     }
 
     /// [`Self::steer`] within the limits of speed and acceleration relative to the segment, for a step of `step` (s).

@@ -153,7 +153,7 @@ impl<T: Trench> Agent<T> {
             sum.add(By::Leader, push, leader.velocity - still);
         }
         for index in self.obstacles_near(around, moment.since, position) {
-            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, position));
+            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot));
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since) - position;
             sum.add_turned(
                 By::Obstacle,
@@ -217,8 +217,7 @@ impl<T: Trench> Agent<T> {
             sum.add_turned(By::Robot, turned, there.velocity - frame.velocity, sliding);
         }
         for index in self.obstacles_near(around, moment.since, robot.position) {
-            let push =
-                Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot.position));
+            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot));
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since);
             let turned = self.sidestepped(push, target, Some(middle - robot.position));
             sum.add_turned(By::Obstacle, turned, around.velocity(index) - frame.velocity, sliding);
@@ -263,11 +262,13 @@ impl<T: Trench> Agent<T> {
         known.iter().enumerate().filter(near).map(|(index, _)| index)
     }
 
-    fn approach(&self, around: &Surroundings<'_>, since: f64, index: usize, robot: Vector2<f64>) -> Approach {
-        match &self.remedy {
-            Some(remedy) => remedy.approach(around, since, index, robot),
-            None => around.approach(index, since, robot),
+    fn approach(&self, around: &Surroundings<'_>, since: f64, index: usize, robot: PointState) -> Approach {
+        let id = around.apparent[index].id;
+        if let Some(remedy) = self.remedy.as_ref().filter(|remedy| remedy.concerns(id)) {
+            return remedy.approach(around, since, index, robot.position);
         }
+        let approach = around.approach(index, since, robot.position);
+        self.risen.as_ref().map_or(approach, |risen| risen.approach(around, (index, since), robot, approach))
     }
 
     /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right, or,

@@ -12,6 +12,7 @@ mod encroach;
 mod law;
 mod places;
 mod remedy;
+mod risen;
 mod settings;
 mod surroundings;
 

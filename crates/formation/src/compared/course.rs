@@ -103,7 +103,7 @@ impl<G: Guide> Trip<G> {
     /// Obstacles without a corner, or corners that are not finite.
     pub fn new(course: Course, guide: G, start: Vector2<f64>) -> Result<Self, HullError> {
         let walls = course.walls()?;
-        let hulls = course.obstacles.iter().map(|corners| Shape::new(corners, 0.0)).collect::<Result<_, _>>()?;
+        let hulls = course.obstacles.iter().map(|corners| Shape::enclosing(corners, 0.0)).collect::<Result<_, _>>()?;
         let outcome = Outcome { arrived: None, position: start, length: 0.0, least_gap: f64::INFINITY, recoveries: 0 };
         Ok(Self { course, guide, walls, hulls, robot: PointState::at_rest(start), time: 0.0, outcome })
     }

@@ -66,7 +66,7 @@ impl VirtualObstacles {
         self.visited.clear();
         let Some(obstacle) = holds else { return };
         self.closed.push(obstacle);
-        let Ok(hull) = Shape::new(&course.obstacles[obstacle], 0.0) else { return };
+        let Ok(hull) = Shape::enclosing(&course.obstacles[obstacle], 0.0) else { return };
         if hull.outline().approach(robot).gap < 0.0 {
             let pairs = course.obstacles.iter().flat_map(|corners| corners.windows(2));
             let walls: Vec<Outline<'_>> = pairs.map(|points| Outline { points, radius: 0.0 }).collect();
@@ -84,7 +84,7 @@ impl Guide for VirtualObstacles {
             self.recover(course, robot);
         }
         let is_left = |obstacle: &usize| {
-            let hull = Shape::new(&course.obstacles[*obstacle], 0.0);
+            let hull = Shape::enclosing(&course.obstacles[*obstacle], 0.0);
             hull.is_ok_and(|hull| hull.outline().approach(robot).gap >= 0.5 * self.clearance)
         };
         let left = self.closed.iter().copied().filter(|closed| !self.repelling.contains(closed)).find(is_left);

@@ -42,5 +42,12 @@ fn refusal(function: &Expression, rough: &Rough) -> CurveError {
         ),
     };
     let expression = function.source().to_owned();
-    CurveError::NotSmooth { expression, problem, x: rough.x(), cause: rough.cause, column: rough.column, remedy }
+    CurveError::NotSmooth {
+        expression,
+        problem,
+        x: function.shown(rough),
+        cause: rough.cause,
+        column: rough.column,
+        remedy,
+    }
 }

@@ -2,6 +2,7 @@
 //!
 //! A [`Curve`] lives in the formation's frame; [`Placed`] looks at it from the frame in which the formation moves.
 mod abreast;
+mod along;
 mod arc_table;
 mod bend;
 mod box_tree;

@@ -54,7 +54,7 @@ impl<T: Trench + Clone + Send + Sync> ChainSimulation<T> {
             for obstacle in &scenario.obstacles {
                 let gap = obstacle.shape.outline().approach(robot.position).gap;
                 let reach = scenario.body_radius().unwrap_or(0.0) - gap;
-                if gap < 0.0 {
+                if gap <= 0.0 {
                     return Err(ScenarioError::StartInObstacle(index + 1, obstacle.id));
                 }
                 if reach > 0.0 {

@@ -82,15 +82,12 @@ pub(super) fn towards_goal(
     (apparent, reach): (&[ApparentObstacle], f64),
 ) -> GoalMotion {
     let (foot, curve) = (segment.nearest(robot), segment.curve());
-    let mut left = curve.nearest(goal).arc_length - foot.arc_length;
-    if curve.is_closed() {
-        left -= curve.length() * libm::round(left / curve.length());
-    }
+    let left = curve.way(foot.arc_length, curve.nearest(goal).arc_length);
     let still = motion.at(foot.point);
     if let Some(behind) = behind_obstacles(segment, apparent, reach, (foot.arc_length, left)) {
         return motion.at(segment.at(behind).point);
     }
-    let on = speed * (left / SLOWING).clamp(-1.0, 1.0) * foot.tangent;
+    let on = speed * (left / SLOWING).clamp(-1.0, 1.0) * segment.at(curve.ahead(foot.arc_length, left)).tangent;
     let is_before = |other: &PointState| {
         let way = other.position - robot;
         way.norm_squared() < apart * apart && way.dot(&on) > 0.0

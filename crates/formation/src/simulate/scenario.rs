@@ -88,7 +88,7 @@ pub enum ScenarioError {
     #[error("r{0} and r{1} start {2} m apart, within zone 1 of each other: move one of them")]
     StartInZoneOne(usize, usize, f64),
     /// A robot that starts in an obstacle (to start in the hull of several is permitted).
-    #[error("r{0} starts inside obstacle {1}: move one of them")]
+    #[error("r{0} starts inside obstacle {1}, or touches it: move one of them")]
     StartInObstacle(usize, u32),
     /// A robot whose body overlaps an obstacle at the start, by so much, m.
     #[error("the body of r{0} reaches {2:.4} m into obstacle {1} at the start: move one of them")]
@@ -111,6 +111,16 @@ pub enum ScenarioError {
     /// Boundaries that are seen piece by piece while their obstacle moves.
     #[error("obstacles that move cannot be seen piece by piece: let them rest, or have all boundaries known")]
     SightOfMoving,
+    /// A sight, m, in which boundaries come when they are nearer than their potential reaches, m.
+    #[error(
+        "a robot sees pieces of boundaries by their middles, and some not before they repel it: within {reach:.4} m, from where it can be {needed:.4} m to a middle"
+    )]
+    SightTooShort {
+        /// Of the potential.
+        reach: f64,
+        /// The range that suffices.
+        needed: f64,
+    },
     /// Boundaries in more pieces than can be looked at.
     #[error("pieces of {0} m cut the boundaries of the obstacles into more than {MOST_PIECES:.0}")]
     SightTooFine(f64),
@@ -125,6 +135,11 @@ pub enum ScenarioError {
 impl<T: Clone> ChainScenario<T> {
     /// What a team knows of its obstacles at the start.
     pub(super) fn knowledge(&self, sight: Sight) -> Result<Knowledge, ScenarioError> {
+        let reach = self.potential.cut();
+        let needed = libm::hypot(reach, 0.5 * sight.piece);
+        if sight.range < needed {
+            return Err(ScenarioError::SightTooShort { reach, needed });
+        }
         Knowledge::new(&self.obstacles, sight).ok_or(ScenarioError::SightTooFine(sight.piece))
     }
 

@@ -15,7 +15,7 @@ pub struct Sight {
 /// Points per rounded corner of a boundary.
 const CORNER: usize = 16;
 /// Every robot looks at every piece that nobody has seen yet, and every edge may hide it.
-pub(super) const MOST_PIECES: f64 = 1e5;
+pub(super) const MOST_PIECES: f64 = 1e4;
 /// What meets a line of sight within this part of it from either end does not hide anything.
 const TOUCH: f64 = 1e-6;
 

@@ -78,7 +78,7 @@ impl Written {
             _ => (!enclosed(&function, meaning, rough.low, rough.high).is_bounded()).then_some("is infinitely steep"),
         };
         if let Some((rough, problem)) = kinks.iter().find_map(|rough| Some((rough, problem(rough)?))) {
-            let (expression, x) = (function.source().to_owned(), rough.x());
+            let (expression, x) = (function.source().to_owned(), function.shown(rough));
             return Err(WrittenError::Rough { expression, problem, x, cause: rough.cause, column: rough.column });
         }
         if kinks.len() > MOST_KINKS {

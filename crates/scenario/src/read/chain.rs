@@ -196,6 +196,7 @@ fn buildable(map: &Map<'_>, robots: &[&Node], scenario: &ChainScenario<AnyTrench
             ScenarioError::Step(..) => map.error("step", text, "write a step above 0 s"),
             ScenarioError::Integration(..) => map.error("method", text, "write semi_implicit_euler"),
             ScenarioError::SightOfWalls => map.error("sight", text, "take `apart` or the sight away"),
+            ScenarioError::SightTooShort { .. } => map.error("sight", text, "see farther, or in shorter pieces"),
             ScenarioError::SightTooFine(_) => map.error("sight", text, "give a longer `piece`"),
             ScenarioError::SightOfMoving => map.error("sight", text, "take the velocities or the sight away"),
             ScenarioError::Hull(_) => map.error("obstacles", text, "mend the obstacles or the clearance"),

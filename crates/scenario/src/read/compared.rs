@@ -57,7 +57,11 @@ fn exponent(map: &Map<'_>) -> Result<i32, ConfigError> {
 
 /// The corners of an obstacle's walls.
 fn walls(node: &Node) -> Result<Vec<Vector2<f64>>, ConfigError> {
-    match node.map()?.opt_node("walls") {
+    let map = node.map()?;
+    if map.opt_node("velocity").is_some() {
+        return Err(map.error("velocity", "is of walls among which methods are compared", "take it away: they rest"));
+    }
+    match map.opt_node("walls") {
         Some(corners) => points(corners),
         None => Err(node.error("has no walls", "methods are compared among walls that rest")),
     }

@@ -286,3 +286,46 @@ fn bodies_and_links_that_suit_no_queue() {
         assert!(error.contains(expected) && error.contains(name), "{error}");
     }
 }
+
+/// A queue with a robot that is behind it, out of its range.
+fn lost(segment: &str, target: &str, robots: [&str; 3]) -> CaseSummary {
+    let [first, second, third] = robots;
+    let text = format!(
+        "name: lost
+kind: queue
+duration: 80
+step: 0.01
+method: semi_implicit_euler
+record_every: 1.0
+tolerance: 0.05
+segment: {segment}
+target: {target}
+spacing: 3
+law: {{poles: [-1.0, -2.0]}}
+recovery: {{range: 8, speed: 1.0}}
+robots:
+- {{position: {first}}}
+- {{position: {second}}}
+- {{position: {third}}}
+"
+    );
+    run_scenario(&parse("lost.yaml", &text).unwrap(), &[]).0.cases.remove(0)
+}
+
+/// Where a corner is nearest, the way goes on along the piece ahead.
+#[test]
+fn robots_that_have_lost_their_team_go_round_corners() {
+    for start in ["[20, -2.0]", "[20, 0.0]", "[20, 2.0]"] {
+        let corner = "{kind: polyline, points: [[0, 0], [30, 0], [30, 30]]}";
+        let case = lost(corner, "[30, 30]", ["[30, 29]", "[29, 27]", start]);
+        assert!(case.conforms_after.is_some_and(|after| after < 50.0), "{case:?}");
+    }
+}
+
+/// 24 m on, not 102 m back through the front of the queue.
+#[test]
+fn robots_that_have_lost_their_team_go_the_shorter_way_round() {
+    let circle = "{kind: circle, centre: [0, 0], radius: 20}";
+    let case = lost(circle, "[20, 0]", ["[20, 0]", "[19.776, -2.992]", "[7.247, -18.641]"]);
+    assert!(case.conforms_after.is_some_and(|after| after < 30.0), "{case:?}");
+}

@@ -1,5 +1,5 @@
 //! Noticing that a robot is caught or enclosed, and choosing a remedy.
-use super::{Drawn, Remedy, Sight, State};
+use super::{Drawn, Pushed, Remedy, Sight, State};
 use crate::Vector2;
 use crate::avoidance::{Guard, auxiliary_arc, auxiliary_lines, escape};
 use crate::curve::Placed;
@@ -23,7 +23,7 @@ impl Remedy {
         let settings = &sight.remedies.watch;
         let crowded = sight.teammate_gap(robot) < settings.radius;
         let Some((gap, index)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            if self.is_caught(sight, robot, target, (None, crowded)) {
+            if self.is_caught(sight, robot, target, Pushed { obstacle: None, crowded }) {
                 self.state = sight.led(robot, drawn, self.wary);
             }
             return;
@@ -40,7 +40,8 @@ impl Remedy {
             return;
         }
         let repelled = gap < sight.potential.cut() + settings.radius;
-        if self.is_caught(sight, robot, target, (Some(index).filter(|_| repelled), repelled || crowded)) {
+        let pushed = Pushed { obstacle: Some(index).filter(|_| repelled), crowded };
+        if self.is_caught(sight, robot, target, pushed) {
             let seen = sight.seen_by(index, robot);
             let guard = || guard(&sight.moment.segment, drawn, &outline, seen, settings.radius);
             let guarded = repelled && !crowded && !sight.is_pulled(robot);

@@ -16,6 +16,8 @@ use crate::hull::Approach;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Remedy {
     watch: Watch,
+    /// In the frame of a segment that moves.
+    carried: Watch,
     /// In the frame of an obstacle that pushes the robot along, away from what draws it.
     drift: Watch,
     /// Rest in a zone where nobody may stay, on the segment or off it.
@@ -56,6 +58,15 @@ impl Drawn {
             Self::Goal(goal) => goal,
         }
     }
+}
+
+/// What pushes a robot away.
+#[derive(Debug, Clone, Copy)]
+struct Pushed {
+    /// The nearest obstacle, by its index.
+    obstacle: Option<usize>,
+    /// Teammates.
+    crowded: bool,
 }
 
 /// What a remedy asks for.
@@ -133,6 +144,7 @@ impl Remedy {
 
     fn restart(&mut self) {
         self.watch.restart();
+        self.carried.restart();
         self.drift.restart();
         self.rest.restart();
     }
@@ -144,25 +156,24 @@ impl Remedy {
         let watch = &sight.remedies.watch;
         let arrived = (foot.point - robot).norm() <= watch.arrived;
         let held = (arrived && sight.teammate_gap(robot) < -watch.radius) || sight.leader_gap(robot) > watch.radius;
-        let rests = self.rest.is_caught(watch, sight.time(), robot, f64::INFINITY, held);
+        let stands = sight.in_frame(robot).unwrap_or(robot);
+        let rests = self.rest.is_caught(watch, sight.time(), stands, f64::INFINITY, held);
         if rests {
             self.rest.restart();
         }
         rests
     }
 
-    /// Whether a robot that something pushes away, if `repelled`, stays where it is, or before an obstacle (by its index) that drives it
-    /// away from its target.
-    fn is_caught(
-        &mut self,
-        sight: &Sight<'_>,
-        robot: Vector2<f64>,
-        target: Vector2<f64>,
-        (obstacle, repelled): (Option<usize>, bool),
-    ) -> bool {
-        let deviation = (target - robot).norm();
-        let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, repelled);
-        self.is_driven(sight, robot, target, obstacle) || stays
+    /// Whether a robot that something pushes away stays where it is, or before an obstacle that drives it away from its target, or, held by
+    /// teammates, where it is in the frame of the segment.
+    fn is_caught(&mut self, sight: &Sight<'_>, robot: Vector2<f64>, target: Vector2<f64>, pushed: Pushed) -> bool {
+        let (settings, time, deviation) = (&sight.remedies.watch, sight.time(), (target - robot).norm());
+        let repelled = pushed.obstacle.is_some() || pushed.crowded;
+        let stays = self.watch.is_caught(settings, time, robot, deviation, repelled);
+        let carried = sight
+            .in_frame(robot)
+            .is_some_and(|stands| self.carried.is_caught(settings, time, stands, deviation, pushed.crowded));
+        self.is_driven(sight, robot, target, pushed.obstacle) || stays || carried
     }
 
     /// Whether a robot stays before an obstacle that moves, and drives it away from its target.
@@ -209,7 +220,7 @@ impl Remedy {
                     self.restart();
                 } else {
                     // Guards have places of rest of their own.
-                    held = self.is_caught(sight, robot, target, (index, true));
+                    held = self.is_caught(sight, robot, target, Pushed { obstacle: index, crowded: false });
                 }
             }
             State::Suspended { until, .. } if sight.time() >= *until => {
@@ -229,13 +240,14 @@ impl Remedy {
                         sight.lead(robot, carrot, way);
                         // A teammate may stand where the way ends.
                         let gap = sight.approach(index, robot).gap;
-                        let (waits, deviation) = (gap > 0.0 && sight.waits(robot, carrot), (target - robot).norm());
-                        if sight.has_gone(robot, carrot, way) {
-                            // The hull has grown since: more of its members is known.
+                        let (waits, deviation) = (sight.waits(robot, carrot), (target - robot).norm());
+                        let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                        if (stays && gap <= 0.0) || sight.has_gone(robot, carrot, way) {
+                            // More of what is in the hull is known since: it has grown, or there is a wall in the way.
                             *self = Self::default();
                             self.choose(sight, robot, drawn);
                         } else {
-                            held = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
+                            held = stays && gap > 0.0;
                         }
                     }
                     out => {

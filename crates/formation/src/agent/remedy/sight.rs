@@ -53,15 +53,30 @@ impl Sight<'_> {
         way.is_empty() && (carrot - robot).norm() <= self.remedies.watch.arrived
     }
 
-    /// A way round what moves goes along with it while the robot is near it, but for its end: else it would be overrun.
+    /// A way round what moves goes along with it while the robot is near it: else it would be overrun. Its end goes along with the segment, and so
+    /// does all of it where only teammates are near.
     pub(super) fn carry(&self, robot: Vector2<f64>, carrot: &mut Vector2<f64>, way: &mut [Vector2<f64>]) {
         let reach = self.potential.cut() + self.remedies.watch.radius;
         let gaps = (0..self.around.apparent.len()).map(|index| (self.approach(index, robot).gap, index));
         let near = gaps.filter(|(gap, _)| *gap < reach).min_by(|a, b| a.0.total_cmp(&b.0));
-        let (Some((_, index)), Some((_, corners))) = (near, way.split_last_mut()) else { return };
-        let by = self.step * self.around.velocity(index);
-        *carrot += by;
-        corners.iter_mut().for_each(|corner| *corner += by);
+        let with_segment = |point: &mut Vector2<f64>| *point += self.step * self.moment.motion.velocity_at(*point);
+        let along = |point: &mut Vector2<f64>| match near {
+            Some((_, index)) => *point += self.step * self.around.velocity(index),
+            None => with_segment(point),
+        };
+        match way.split_last_mut() {
+            Some((end, corners)) => {
+                along(carrot);
+                corners.iter_mut().for_each(along);
+                with_segment(end);
+            }
+            None => with_segment(carrot),
+        }
+    }
+
+    /// Where a robot is in the frame of a segment that moves: who is held by teammates stands there.
+    pub(super) fn in_frame(&self, robot: Vector2<f64>) -> Option<Vector2<f64>> {
+        (!self.moment.motion.rests()).then(|| self.moment.segment.to_curve(robot))
     }
 
     /// Least distance from the zone 2 of a robot ahead, m; negative within.
@@ -144,10 +159,16 @@ impl Sight<'_> {
     }
 
     /// The place on the robot's fragments, nearest to it, that lies in nobody's zone 2, in its leader's neutral zone and beyond the reach of
-    /// obstacles: there nothing but the trench acts.
+    /// obstacles: there nothing but the trench acts. Along the segment the leader may be far from what is nearest to the robot.
     fn place(&self, robot: Vector2<f64>) -> Option<Vector2<f64>> {
+        let near = |point: Vector2<f64>| self.place_near(robot, self.moment.segment.nearest(point).arc_length);
+        near(robot).or_else(|| self.leader().and_then(near))
+    }
+
+    /// Of those about an arc length of `middle` (m).
+    fn place_near(&self, robot: Vector2<f64>, middle: f64) -> Option<Vector2<f64>> {
         let (radii, segment, margin) = (self.zoning.radii(), &self.moment.segment, self.remedies.watch.arrived);
-        let (middle, reach) = (segment.nearest(robot).arc_length, radii.rho + radii.rho_check);
+        let reach = radii.rho + radii.rho_check;
         let fits = |point: Vector2<f64>| {
             // Of those farther off only the places are known.
             let places = self.around.places.iter().copied();

@@ -213,11 +213,13 @@ impl QueueScenario {
             Duty::Follows(leader, between) => self.law.acceleration(robot, robots[leader], between),
             Duty::Lost => {
                 let foot = self.segment.nearest(robot.position);
-                let (left, fastest) = (first - foot.arc_length, self.recovery.map_or(0.0, |recovery| recovery.speed));
+                let fastest = self.recovery.map_or(0.0, |recovery| recovery.speed);
+                let left = self.segment.way(foot.arc_length, first);
                 let along = if left.abs() < ARRIVED { 0.0 } else { fastest * left.signum() };
+                let tangent = self.segment.at(self.segment.ahead(foot.arc_length, left)).tangent;
                 // The linear law for a foot that moves on, but for the speed: the way there is taken at the greatest.
                 let QueueFollowing { position_gain, velocity_gain } = self.law;
-                let wanted = along * foot.tangent + position_gain / velocity_gain * (foot.point - robot.position);
+                let wanted = along * tangent + position_gain / velocity_gain * (foot.point - robot.position);
                 velocity_gain * (wanted.cap_magnitude(fastest) - robot.velocity)
             }
         }
