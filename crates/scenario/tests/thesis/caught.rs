@@ -128,14 +128,12 @@ robots:
     assert!(case.conforms_after.is_some() && case.neutral_after.is_some(), "{case:?}");
 }
 
-/// A way out of a hull may turn out to be walled once more is seen: another one is sought.
-#[test]
-fn out_of_a_trough_of_which_little_is_seen() {
-    for (start, range) in [("[0.3, 16]", 4.0), ("[0.3, 16]", 3.0), ("[0.3, 7]", 2.0), ("[0.3, 7]", 6.0)] {
-        let rest = format!(
-            "segment: {{kind: line, points: [[-20, 0], [20, 0]]}}
+/// A robot among walls that open upwards, of which it sees so far (m), and a segment below them.
+fn among_walls(walls: &str, start: &str, range: f64) -> CaseSummary {
+    let rest = format!(
+        "segment: {{kind: line, points: [[-20, 0], [20, 0]]}}
 obstacles:
-- {{walls: [[-4, 12], [-4, 4], [4, 4], [4, 12]]}}
+- {{walls: {walls}}}
 clearance: 2.0
 obstacle_potential: {{pole: 0.0, cut: 1.0, strength: 10.0, m: 2, edge: jump}}
 encroaching: obstacles
@@ -143,8 +141,25 @@ sight: {{range: {range}, piece: 0.5}}
 robots:
 - {{position: {start}}}
 "
-        );
-        let (case, _) = case(120.0, &rest, &[]);
+    );
+    case(150.0, &rest, &[]).0
+}
+
+/// A way out of a hull may turn out to be walled once more is seen: another one is sought.
+#[test]
+fn out_of_a_trough_of_which_little_is_seen() {
+    for (start, range) in [("[0.3, 16]", 4.0), ("[0.3, 16]", 3.0), ("[0.3, 7]", 2.0), ("[0.3, 7]", 6.0)] {
+        let case = among_walls("[[-4, 12], [-4, 4], [4, 4], [4, 12]]", start, range);
         assert!(case.conforms_after.is_some() && case.collisions.is_empty(), "{start}, {range} m: {case:?}");
+    }
+}
+
+/// So it is within a spiral, where ways end before walls that nobody saw.
+#[test]
+fn out_of_a_spiral_of_which_little_is_seen() {
+    let spiral = "[[-6, 14], [-6, 3], [6, 3], [6, 14], [-2, 14], [-2, 7], [2, 7], [2, 10]]";
+    for range in [3.0, 6.0] {
+        let case = among_walls(spiral, "[0.0, 8.2]", range);
+        assert!(case.conforms_after.is_some() && case.collisions.is_empty(), "{range} m: {case:?}");
     }
 }

@@ -238,9 +238,10 @@ impl Remedy {
                         *carrot += by;
                         way.iter_mut().for_each(|corner| *corner += by);
                         sight.lead(robot, carrot, way);
-                        // A teammate may stand where the way ends.
-                        let gap = sight.approach(index, robot).gap;
-                        let (waits, deviation) = (sight.waits(robot, carrot), (target - robot).norm());
+                        // A teammate may stand where the way ends, or a wall before it.
+                        let (gap, waits) =
+                            (sight.approach(index, robot).gap, sight.waits(robot, carrot) || way.is_empty());
+                        let deviation = (target - robot).norm();
                         let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
                         if (stays && gap <= 0.0) || sight.has_gone(robot, carrot, way) {
                             // More of what is in the hull is known since: it has grown, or there is a wall in the way.
