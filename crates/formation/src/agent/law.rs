@@ -153,12 +153,13 @@ impl<T: Trench> Agent<T> {
             sum.add(By::Leader, push, leader.velocity - still);
         }
         for index in self.obstacles_near(around, moment.since, position) {
-            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot));
+            let (approach, rising) = self.approach(around, moment.since, index, robot);
+            let push = Push::of_obstacle(&settings.potential, approach);
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since) - position;
             sum.add_turned(
                 By::Obstacle,
                 self.sidestepped(push, target, Some(middle)),
-                around.velocity(index) - still,
+                around.velocity(index) + rising - still,
                 sliding,
             );
         }
@@ -217,10 +218,11 @@ impl<T: Trench> Agent<T> {
             sum.add_turned(By::Robot, turned, there.velocity - frame.velocity, sliding);
         }
         for index in self.obstacles_near(around, moment.since, robot.position) {
-            let push = Push::of_obstacle(&settings.potential, self.approach(around, moment.since, index, robot));
+            let (approach, rising) = self.approach(around, moment.since, index, robot);
+            let push = Push::of_obstacle(&settings.potential, approach);
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since);
             let turned = self.sidestepped(push, target, Some(middle - robot.position));
-            sum.add_turned(By::Obstacle, turned, around.velocity(index) - frame.velocity, sliding);
+            sum.add_turned(By::Obstacle, turned, around.velocity(index) + rising - frame.velocity, sliding);
         }
         sum.steered.acceleration += frame.acceleration;
         sum
@@ -262,13 +264,20 @@ impl<T: Trench> Agent<T> {
         known.iter().enumerate().filter(near).map(|(index, _)| index)
     }
 
-    fn approach(&self, around: &Surroundings<'_>, since: f64, index: usize, robot: PointState) -> Approach {
-        let id = around.apparent[index].id;
+    /// How an apparent obstacle lies to the robot, as the law sees it, and the velocity at which it rises, m/s.
+    fn approach(
+        &self,
+        around: &Surroundings<'_>,
+        since: f64,
+        index: usize,
+        robot: PointState,
+    ) -> (Approach, Vector2<f64>) {
+        let (id, still) = (around.apparent[index].id, Vector2::zeros());
         if let Some(remedy) = self.remedy.as_ref().filter(|remedy| remedy.concerns(id)) {
-            return remedy.approach(around, since, index, robot.position);
+            return (remedy.approach(around, since, index, robot.position), still);
         }
         let approach = around.approach(index, since, robot.position);
-        self.risen.as_ref().map_or(approach, |risen| risen.approach(around, (index, since), robot, approach))
+        self.risen.as_ref().map_or((approach, still), |risen| risen.approach(around, (index, since), robot, approach))
     }
 
     /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right, or,

@@ -313,7 +313,7 @@ fn partial_boundaries_of_7_6() {
     let (known, apparent) = simulation.known_obstacles().unwrap();
     assert!(known.is_empty() && apparent.is_empty(), "nobody has seen anything");
     let case = run("7.6_partial_boundaries.yaml");
-    assert_near(case.conforms_after, &[86.93], 0.05);
+    assert_near(case.conforms_after, &[87.48], 0.05);
     let least = case.obstacles.iter().map(|obstacle| obstacle.least_gap).fold(f64::INFINITY, f64::min);
     assert_near([least], &[0.80], 0.005);
     assert_eq!(case.obstacles.len(), 6);
