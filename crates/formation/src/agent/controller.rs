@@ -8,7 +8,7 @@ use super::surroundings::Moment;
 use super::{Action, AgentSettings, Driven, RemedyState, Surroundings, Work};
 use crate::Vector2;
 use crate::curve::Interval;
-use crate::hull::{ApparentObstacle, HullError};
+use crate::hull::HullError;
 use crate::kinematics::PointState;
 use crate::laws::Terms;
 use crate::seek::{Fragments, Seeker};
@@ -181,21 +181,19 @@ impl<T: Trench> Agent<T> {
     #[inline(always)]
     fn look_for_hulls(&mut self, around: &Surroundings<'_>, since: f64, robot: PointState, step: Option<f64>) {
         let cut = self.settings.potential.cut();
-        let is_near = |(index, obstacle): (usize, &ApparentObstacle)| {
-            !obstacle.shape.is_beyond(robot.position - around.displacement(index, since), cut)
-        };
-        if around.clear > cut || !around.apparent.iter().enumerate().any(is_near) {
+        let is_near = |index: usize| around.is_near(index, since, robot.position, cut);
+        if around.clear > cut || !(0..around.apparent.len()).any(is_near) {
             self.risen = None;
             return;
         }
         let rising = self.settings.remedies.as_ref().map_or(cut / RISING, |remedies| remedies.rising);
         let mut risen = self.risen.take().unwrap_or_default();
-        let seen = |index: usize| {
+        let instead = |index: usize| {
             let remedy = self.remedy.as_ref().filter(|remedy| remedy.concerns(around.apparent[index].id))?;
             Some(remedy.approach(around, since, index, robot.position).gap)
         };
-        let is_near = risen.follow(around, (since, robot), Pace { cut, rising, step }, seen);
-        self.risen = is_near.then_some(risen);
+        risen.follow(around, (since, robot), Pace { cut, rising, step }, instead);
+        self.risen = Some(risen);
     }
 
     /// [`Self::steer`] within the limits of speed and acceleration relative to the segment, for a step of `step` (s).

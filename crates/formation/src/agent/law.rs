@@ -4,7 +4,7 @@ use super::surroundings::Moment;
 use super::{Agent, Forces, Method, Powers, Surroundings, Values};
 use crate::Vector2;
 use crate::curve::Foot;
-use crate::hull::{ApparentObstacle, Approach};
+use crate::hull::Approach;
 use crate::kinematics::PointState;
 use crate::laws::{Attraction, NearestAttraction, Push, Seen, Steered, Unpushed, ZonedAttraction};
 use crate::trench::{Damping, Trench};
@@ -153,7 +153,7 @@ impl<T: Trench> Agent<T> {
             sum.add(By::Leader, push, leader.velocity - still);
         }
         for index in self.obstacles_near(around, moment.since, position) {
-            let (approach, rising) = self.approach(around, moment.since, index, robot);
+            let (approach, rising) = self.approach(around, moment.since, index, position);
             let push = Push::of_obstacle(&settings.potential, approach);
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since) - position;
             sum.add_turned(
@@ -218,7 +218,7 @@ impl<T: Trench> Agent<T> {
             sum.add_turned(By::Robot, turned, there.velocity - frame.velocity, sliding);
         }
         for index in self.obstacles_near(around, moment.since, robot.position) {
-            let (approach, rising) = self.approach(around, moment.since, index, robot);
+            let (approach, rising) = self.approach(around, moment.since, index, robot.position);
             let push = Push::of_obstacle(&settings.potential, approach);
             let middle = around.apparent[index].shape.middle() + around.displacement(index, moment.since);
             let turned = self.sidestepped(push, target, Some(middle - robot.position));
@@ -255,13 +255,13 @@ impl<T: Trench> Agent<T> {
         robot: Vector2<f64>,
     ) -> impl Iterator<Item = usize> {
         let cut = self.settings.potential.cut();
-        let near = move |(index, obstacle): &(usize, &ApparentObstacle)| {
-            !obstacle.shape.is_beyond(robot - around.displacement(*index, since), cut)
-                || self.remedy.as_ref().is_some_and(|remedy| remedy.concerns(obstacle.id))
+        let near = move |index: &usize| {
+            around.is_near(*index, since, robot, cut)
+                || self.remedy.as_ref().is_some_and(|remedy| remedy.concerns(around.apparent[*index].id))
         };
         // A guard stands before an obstacle, by less than its potential reaches from the robot that it is for.
-        let known = if around.clear > cut && self.remedy.is_none() { &[] } else { around.apparent };
-        known.iter().enumerate().filter(near).map(|(index, _)| index)
+        let known = if around.clear > cut && self.remedy.is_none() { 0 } else { around.apparent.len() };
+        (0..known).filter(near)
     }
 
     /// How an apparent obstacle lies to the robot, as the law sees it, and the velocity at which it rises, m/s.
@@ -270,14 +270,15 @@ impl<T: Trench> Agent<T> {
         around: &Surroundings<'_>,
         since: f64,
         index: usize,
-        robot: PointState,
+        robot: Vector2<f64>,
     ) -> (Approach, Vector2<f64>) {
-        let (id, still) = (around.apparent[index].id, Vector2::zeros());
-        if let Some(remedy) = self.remedy.as_ref().filter(|remedy| remedy.concerns(id)) {
-            return (remedy.approach(around, since, index, robot.position), still);
-        }
-        let approach = around.approach(index, since, robot.position);
-        self.risen.as_ref().map_or((approach, still), |risen| risen.approach(around, (index, since), robot, approach))
+        let id = around.apparent[index].id;
+        let remedy = self.remedy.as_ref().filter(|remedy| remedy.concerns(id));
+        let risen = self.risen.as_ref().filter(|_| remedy.is_none()).and_then(|risen| risen.seen(id));
+        risen.unwrap_or_else(|| {
+            let whole = || around.approach(index, since, robot);
+            (remedy.map_or_else(whole, |remedy| remedy.approach(around, since, index, robot)), Vector2::zeros())
+        })
     }
 
     /// A push, and its force as the robot feels it: against the attraction, where it would only stop the robot, turned to its right, or,

@@ -82,6 +82,19 @@ impl<'a> Surroundings<'a> {
         self.apparent[index].shape.outline().approach(robot - self.displacement(index, since))
     }
 
+    /// How the nearest of the real obstacles in an apparent one lies to a robot then.
+    pub(super) fn approach_of_members(&self, index: usize, since: f64, robot: Vector2<f64>) -> Option<Approach> {
+        let (obstacle, robot) = (&self.apparent[index], robot - self.displacement(index, since));
+        let members = self.real.iter().filter(|real| obstacle.members.contains(&real.id));
+        members.map(|real| real.shape.outline().approach(robot)).min_by(|a, b| a.gap.total_cmp(&b.gap))
+    }
+
+    /// Whether an apparent obstacle may be within `reach` (m) of a robot then: others are not.
+    #[inline]
+    pub(super) fn is_near(&self, index: usize, since: f64, robot: Vector2<f64>, reach: f64) -> bool {
+        !self.apparent[index].shape.is_beyond(robot - self.displacement(index, since), reach)
+    }
+
     /// Whether two real obstacles are kept apart though their hulls are nearer than the clearance: pieces of one long wall (9.2).
     pub(super) fn parted(&self, a: u32, b: u32, clearance: f64) -> bool {
         let hull = |id: u32| self.apparent.iter().find(|obstacle| obstacle.members.contains(&id));

@@ -1,27 +1,19 @@
 //! Hulls that spring up beside robots, and robots that are caught: at corners, on segments that move on, across hairpins, behind walls that
 //! were seen late.
 
-use super::run_scenario;
-use trench_scenario::{CaseSummary, Sample, parse};
+use super::{TEAM, run_text};
+use trench_scenario::{CaseSummary, Sample};
 
 /// Radii of Table 6.2, remedies that wait for a second, and what else is in the file; with what is kept at `moments` (s).
 fn case(duration: f64, rest: &str, moments: &[f64]) -> (CaseSummary, Vec<Vec<Sample>>) {
     let text = format!(
-        "name: caught
-kind: nearest_points
-duration: {duration}
+        "{TEAM}duration: {duration}
 step: 0.001
-method: semi_implicit_euler
-record_every: 0.1
-trench: {{kind: hyperbolic, alpha: 10.0, a: 1.0}}
-damping: 5.0
 zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2, edge: jump, full_acceleration: 1.0e+4}}
 remedies: {{radius: 0.1, patience: 1.0, arrived: 0.05, rising: 0.5}}
-sidesteps: true
 {rest}"
     );
-    let (mut summary, kept) = run_scenario(&parse("caught.yaml", &text).unwrap(), moments);
-    (summary.cases.remove(0), kept)
+    run_text(&text, moments)
 }
 
 /// Two discs come nearer than the clearance beside r1, which rests 0.05 m from their hull then: it was thrown away with 70 m/s.

@@ -78,6 +78,23 @@ fn run_scenario(scenario: &Scenario, times: &[f64]) -> (Summary, Vec<Vec<Sample>
     (summary, kept)
 }
 
+/// Of a team with the trench of 6.5, its damping, and sidesteps.
+const TEAM: &str = "name: team
+kind: nearest_points
+method: semi_implicit_euler
+record_every: 0.1
+trench: {kind: hyperbolic, alpha: 10.0, a: 1.0}
+damping: 5.0
+sidesteps: true
+";
+
+/// Runs the text of a scenario with one case, and gives what is kept at the times asked for besides.
+fn run_text(text: &str, times: &[f64]) -> (CaseSummary, Vec<Vec<Sample>>) {
+    let scenario = parse("text.yaml", text).unwrap_or_else(|error| panic!("{error}"));
+    let (mut summary, kept) = run_scenario(&scenario, times);
+    (summary.cases.remove(0), kept)
+}
+
 fn run(name: &str) -> CaseSummary {
     run_with(name, &[]).0.cases.remove(0)
 }

@@ -1,6 +1,6 @@
 //! Chapter 8: the linear queue laws, A.22, Remarks 8.4.1 and 6.2.1.
 
-use super::{refusal, run_scenario, run_with, scenario, scenario_with, text};
+use super::{refusal, run_scenario, run_text, run_with, scenario, scenario_with, text};
 use trench_formation::Vector2;
 use trench_formation::stability::{Coupling, QueueRobot, cascade_bounds};
 use trench_scenario::{CaseSummary, Queue, Sample, Task, parse};
@@ -309,7 +309,7 @@ robots:
 - {{position: {third}}}
 "
     );
-    run_scenario(&parse("lost.yaml", &text).unwrap(), &[]).0.cases.remove(0)
+    run_text(&text, &[]).0
 }
 
 /// Where a corner is nearest, the way goes on along the piece ahead.

@@ -1,28 +1,21 @@
 //! Who was led away, or has lost its team, comes back gently; nobody stays where zoning does not let it; ways out of hulls that grow.
 
-use super::{run_scenario, scenario_with};
-use trench_scenario::{CaseSummary, parse};
+use super::{TEAM, run_scenario, run_text, scenario_with};
+use trench_scenario::CaseSummary;
 
 /// Radii of Table 6.2, remedies, and what else is in the file.
 fn case(duration: f64, rest: &str) -> CaseSummary {
     let text = format!(
-        "name: ways
-kind: nearest_points
-duration: {duration}
+        "{TEAM}duration: {duration}
 step: 0.002
-method: semi_implicit_euler
-record_every: 0.1
-trench: {{kind: hyperbolic, alpha: 10.0, a: 1.0}}
-damping: 5.0
 zoning: {{rho_underbar: 1.0, rho_hat: 4.0, rho: 10.0, rho_check: 13.0, rho_bar: 30.0, alpha: 10.0, beta: 10.0, m: 2, edge: continuous, full_acceleration: 1.0e+3}}
 clearance: 1.6
 obstacle_potential: {{pole: 0.2, cut: 1.2, strength: 10.0, m: 2, edge: continuous}}
 encroaching: obstacles
 remedies: {{radius: 0.1, patience: 1.0, arrived: 0.05, rising: 1.0}}
-sidesteps: true
 {rest}"
     );
-    run_scenario(&parse("ways.yaml", &text).unwrap(), &[]).0.cases.remove(0)
+    run_text(&text, &[]).0
 }
 
 fn least_gap(case: &CaseSummary) -> f64 {

@@ -111,18 +111,15 @@ impl Remedy {
         robot: Vector2<f64>,
     ) -> Approach {
         let obstacle = &around.apparent[index];
-        let outline = obstacle.shape.outline();
-        let robot = robot - around.displacement(index, since);
+        let whole = || around.approach(index, since, robot);
         match &self.state {
             State::Guarded { obstacle: id, guard, sunk } if *id == obstacle.id => {
-                guard.sunk(*sunk).approach(&outline, robot)
+                guard.sunk(*sunk).approach(&obstacle.shape.outline(), robot - around.displacement(index, since))
             }
             State::Escaping { obstacle: id, .. } | State::Suspended { within: Some(id), .. } if *id == obstacle.id => {
-                let members = around.real.iter().filter(|real| obstacle.members.contains(&real.id));
-                let approaches = members.map(|real| real.shape.outline().approach(robot));
-                approaches.min_by(|a, b| a.gap.total_cmp(&b.gap)).unwrap_or_else(|| outline.approach(robot))
+                around.approach_of_members(index, since, robot).unwrap_or_else(whole)
             }
-            _ => outline.approach(robot),
+            _ => whole(),
         }
     }
 
@@ -239,9 +236,8 @@ impl Remedy {
                         way.iter_mut().for_each(|corner| *corner += by);
                         sight.lead(robot, carrot, way);
                         // A teammate may stand where the way ends, or a wall before it.
-                        let (gap, waits) =
-                            (sight.approach(index, robot).gap, sight.waits(robot, carrot) || way.is_empty());
-                        let deviation = (target - robot).norm();
+                        let (gap, deviation) = (sight.approach(index, robot).gap, (target - robot).norm());
+                        let waits = sight.waits(robot, carrot) || way.is_empty();
                         let stays = self.watch.is_caught(&sight.remedies.watch, sight.time(), robot, deviation, waits);
                         if (stays && gap <= 0.0) || sight.has_gone(robot, carrot, way) {
                             // More of what is in the hull is known since: it has grown, or there is a wall in the way.
