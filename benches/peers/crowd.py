@@ -10,7 +10,6 @@ robot after each, and says at the end how it went. Its robots must be where the 
 """
 
 import csv
-
 import os
 import re
 import statistics
@@ -25,13 +24,18 @@ os.environ["OMP_NUM_THREADS"] = "1"
 import pyrvo
 from scipy.spatial import cKDTree
 
+ROOT = Path(__file__).resolve().parents[2]
 SPEED = 0.5
 TICK = 0.033
+# Between which pyrvo's robots are told anew where to go, and how many times that is timed.
 STEPS = 20
+RUNS = 15
 COUNTS = (250, 20000)
-# Of a run of `trench sim`, for few and many robots alike, so that what a run does once weighs the same.
+# Of a run of `trench sim`, for few and many robots alike, so that what it does once weighs the same.
 SIM_STEPS = 3200
-SIM_ROUNDS = 5
+# Library, pyrvo and `trench sim` take turns, with as many agent steps of few robots as of many, and the best of these rounds counts: a run of
+# few lasts less than a moment in which somebody else of the host has the caches, one of many does not.
+ROUNDS = 5
 # As far as two robots can meet within pyrvo's horizon of 2 s, m.
 RANGE = 2.0 * SPEED * 2.0 + 0.22
 
@@ -47,29 +51,31 @@ def wanted(position, end):
     return (SPEED * way[0] / length, SPEED * way[1] / length)
 
 
-def peer(starts, ends):
-    """Best and median seconds an agent step of fifteen times twenty steps, after twenty that do not count, and the mean number of neighbours.
+def peer(starts, ends, repeats):
+    """Mean seconds an agent step of `repeats` times fifteen times twenty steps, after twenty that do not count, and the mean number of
+    neighbours.
 
     Preferred velocities are set anew between the runs, while the clock stands.
     """
     count = len(starts)
-    simulation = pyrvo.RVOSimulator()
-    simulation.set_time_step(TICK)
-    simulation.set_agent_defaults(RANGE, 10, 2.0, 2.0, 0.11, SPEED, (0.0, 0.0))
-    for start in starts:
-        simulation.add_agent(tuple(start))
-    seconds, neighbours = [], 0
-    for run in range(16):
-        for index, end in enumerate(ends):
-            position = simulation.get_agent_position(index)
-            simulation.set_agent_pref_velocity(index, wanted(position, end))
-        begin = time.perf_counter()
-        for _ in range(STEPS):
-            simulation.do_step()
-        seconds.append((time.perf_counter() - begin) / (STEPS * count))
-        neighbours += sum(simulation.get_agent_num_agent_neighbors(index) for index in range(count)) / (16 * count)
-    seconds = sorted(seconds[1:])
-    return seconds[0], seconds[7], neighbours
+    seconds, neighbours = 0.0, 0
+    for _ in range(repeats):
+        simulation = pyrvo.RVOSimulator()
+        simulation.set_time_step(TICK)
+        simulation.set_agent_defaults(RANGE, 10, 2.0, 2.0, 0.11, SPEED, (0.0, 0.0))
+        for start in starts:
+            simulation.add_agent(tuple(start))
+        for run in range(RUNS + 1):
+            for index, end in enumerate(ends):
+                position = simulation.get_agent_position(index)
+                simulation.set_agent_pref_velocity(index, wanted(position, end))
+            begin = time.perf_counter()
+            for _ in range(STEPS):
+                simulation.do_step()
+            if run > 0:
+                seconds += time.perf_counter() - begin
+            neighbours += sum(simulation.get_agent_num_agent_neighbors(index) for index in range(count)) / count
+    return seconds / (repeats * RUNS * STEPS * count), neighbours / (repeats * (RUNS + 1))
 
 
 def crowding(positions, range):
@@ -127,58 +133,54 @@ def check_motion(program, folder, count):
         sys.exit(f"{count} robots of trench sim are not where the library's are")
 
 
-def sims(program, folder):
-    """Best and median seconds an agent step of `trench sim` on one thread, and the best on two, for few robots and for many.
+def library(folder):
+    """Seconds an agent step of the library, on one thread and on two; leaves starts, ends and motion in the folder."""
+    bench = ["cargo", "bench", "--quiet", "-p", "trench_formation", "--bench", "crowd", "--", folder]
+    subprocess.run(bench, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return {count: rows(folder, f"times_{count}.txt")[0] for count in COUNTS}
 
-    By turns: one run of many, then as many of few as make as many agent steps. A run of few by itself lasts a tenth of a second, and
-    the best of some of those is of a moment in which nobody else was at the caches; that of many would need eight such seconds.
-    """
-    paths = {}
+
+def round_of(program, folder, paths):
+    """Seconds an agent step of each, for few robots and for many: the mean of as many agent steps of few as of many."""
+    ours, turn = library(folder), {}
     for count in COUNTS:
-        check_motion(program, folder, count)
-        paths[count] = scenario(folder, count, SIM_STEPS)
-
-    def cost(count, threads, runs):
-        return sum(simulated(program, paths[count], threads) for _ in range(runs)) / (runs * SIM_STEPS * count)
-
-    one = [{count: cost(count, 1, max(COUNTS) // count) for count in COUNTS} for _ in range(SIM_ROUNDS)]
-    two = [{count: cost(count, 2, 1) for count in COUNTS} for _ in range(SIM_ROUNDS)]
-    times = {count: sorted(turn[count] for turn in one) for count in COUNTS}
-    return {count: (times[count][0], statistics.median(times[count]), min(turn[count] for turn in two)) for count in COUNTS}
+        runs = max(COUNTS) // count
+        starts, ends = (rows(folder, f"{name}_{count}.txt") for name in ("starts", "ends"))
+        theirs, neighbours = peer(starts, ends, runs)
+        turn[count] = {"library": ours[count][0], "two": ours[count][1], "pyrvo": theirs, "neighbours": neighbours}
+        if program:
+            steps = runs * SIM_STEPS * count
+            turn[count]["trench sim"] = sum(simulated(program, paths[count], 1) for _ in range(runs)) / steps
+    return turn
 
 
 def main():
-    root = Path(__file__).resolve().parents[2]
+    program = sys.argv[1] if len(sys.argv) > 1 else None
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        bench = ["cargo", "bench", "--quiet", "-p", "trench_formation", "--bench", "crowd", "--", name]
-        subprocess.run(bench, cwd=root, check=True, stdout=subprocess.DEVNULL)
-        lines = (line.split("\t") for line in (folder / "times.tsv").read_text().splitlines())
-        ours = {name: (float(best), float(median)) for name, best, median in lines}
-        print("best (median) of 15, an agent step; equal motion on one thread and two")
-        peers, costs = {}, {"library": []}
+        folder, paths = Path(name), {}
+        library(folder)
+        for count in COUNTS if program else ():
+            check_motion(program, folder, count)
+            paths[count] = scenario(folder, count, SIM_STEPS)
+        turns = [round_of(program, folder, paths) for _ in range(ROUNDS)]
+        print(f"an agent step, best (median) of {ROUNDS} rounds by turns; equal motion in all of ours")
+        programs = ["library"] + (["trench sim"] if program else [])
         for count in COUNTS:
-            best, median, neighbours = peer(rows(folder, f"starts_{count}.txt"), rows(folder, f"ends_{count}.txt"))
-            (mine, middle), (both, _) = (ours[f"crowd: {count} robots, {threads} threads"] for threads in (1, 2))
+            mean = {what: sorted(turn[count][what] for turn in turns) for what in turns[0][count]}
             near = crowding(rows(folder, f"moved_{count}.txt"), RANGE)
             print(
-                f"{count:>6} robots: ours {1e6 * mine:.3f} ({1e6 * middle:.3f}) us, {1e-6 / mine:.2f} million a second; on two "
-                f"threads {1e6 * both:.3f} us, {near:.1f} others within {RANGE} m at the end; pyrvo {1e6 * best:.3f} ({1e6 * median:.3f}) us with {neighbours:.1f} neighbours; "
-                f"{best / mine:.2f} times"
+                f"{count:>6} robots: {near:.1f} others within {RANGE} m at the end; pyrvo {1e6 * mean['pyrvo'][0]:.3f} "
+                f"({1e6 * statistics.median(mean['pyrvo']):.3f}) us with {mean['neighbours'][0]:.1f} neighbours; library on two threads {1e6 * mean['two'][0]:.3f} us"
             )
-            peers[count] = best
-            costs["library"].append(mine)
-        if len(sys.argv) > 1:
-            print(f"best (median) of {SIM_ROUNDS} rounds by turns, of as many agent steps each")
-            simulated_costs = sims(sys.argv[1], folder)
-            for count, (mine, middle, both) in simulated_costs.items():
+            for what in programs:
+                best, middle = mean[what][0], statistics.median(mean[what])
                 print(
-                    f"{count:>6} robots, trench sim: {1e6 * mine:.3f} ({1e6 * middle:.3f}) us, {1e-6 / mine:.2f} million a second; on two "
-                    f"threads {1e6 * both:.3f} us; pyrvo {1e6 * peers[count]:.3f} us; {peers[count] / mine:.2f} times"
+                    f"{count:>6} robots, {what}: {1e6 * best:.3f} ({1e6 * middle:.3f}) us, {1e-6 / best:.2f} million a second; "
+                    f"{mean['pyrvo'][0] / best:.2f} times"
                 )
-            costs["trench sim"] = [mine for mine, _, _ in simulated_costs.values()]
-        for name, (few, many) in costs.items():
-            print(f"a robot of 20000 costs {100 * (many / few - 1):.0f} % more than one of 250, {name}")
+        for what in programs:
+            few, many = (min(turn[count][what] for turn in turns) for count in COUNTS)
+            print(f"a robot of {max(COUNTS)} costs {100 * (many / few - 1):.0f} % more than one of {min(COUNTS)}, {what}")
 
 
 if __name__ == "__main__":

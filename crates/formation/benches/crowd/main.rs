@@ -1,13 +1,14 @@
 //! Steps of many robots under the full law (7.13), measured and written out for pyrvo: `scripts/bench crowd`, or by itself
 //! `cargo bench -p trench_formation --bench crowd [-- FOLDER]`.
 #![expect(clippy::print_stdout, reason = "the figures are the purpose")]
-#[path = "../peers/output.rs"]
-mod output;
+#[path = "../peers/files.rs"]
+mod files;
 #[path = "../../tests/threads/mod.rs"]
 mod threads;
 
-use output::{Output, random};
+use files::{Files, random};
 use std::error::Error;
+use std::time::{Duration, Instant};
 use threads::Threads;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape};
@@ -26,8 +27,11 @@ const ROBOT: Capability = Capability { speed: 0.5, acceleration: 2.0 };
 /// m of segment for each robot, and how far from it they start at most.
 const SPACING: f64 = 1.2;
 const ASIDE: f64 = 3.0;
-/// Steps that are timed together.
+/// Steps between which pyrvo's robots are told anew where to go, and how many times that is timed.
 const STEPS: usize = 20;
+const RUNS: usize = 15;
+const FEW: u32 = 250;
+const MANY: u32 = 20_000;
 
 /// A chain along a winding segment among four discs: nearest points on fragments, zones, limits, safety filter.
 fn scenario(count: u32) -> Result<ChainScenario<Hyperbolic>, Box<dyn Error>> {
@@ -78,46 +82,49 @@ fn scenario(count: u32) -> Result<ChainScenario<Hyperbolic>, Box<dyn Error>> {
     })
 }
 
-/// Goes on for 16 times as many steps; the fastest of them count. Where the robots end.
-fn measure(
-    output: &mut Output,
-    scenario: &ChainScenario<Hyperbolic>,
-    threads: usize,
-) -> Result<Vec<PointState>, Box<dyn Error>> {
+/// Goes for 16 times 20 steps from the start, of which the first twenty do not count, and starts again until as many agent steps were
+/// made as by [`MANY`] robots once: a run of few robots lasts less than a moment in which somebody else has the caches.
+/// Seconds an agent step, and where the robots end.
+fn measure(scenario: &ChainScenario<Hyperbolic>, threads: usize) -> Result<(f64, Vec<PointState>), Box<dyn Error>> {
     let count = scenario.robots.len();
-    let mut simulation = ChainSimulation::new(scenario.clone())?.with(Threads(threads));
-    let name = format!("crowd: {count} robots, {threads} threads");
-    let mut failed = Ok(());
-    output.time(&name, 15, STEPS * count, || {
-        if failed.is_ok() {
-            failed = (0..STEPS).try_for_each(|_| simulation.step());
-        }
-    });
-    failed?;
-    Ok(simulation.robots().to_vec())
+    let repeats = MANY as usize / count;
+    let mut taken = Duration::ZERO;
+    let mut moved = Vec::new();
+    for _ in 0..repeats {
+        let mut simulation = ChainSimulation::new(scenario.clone())?.with(Threads(threads));
+        (0..STEPS).try_for_each(|_| simulation.step())?;
+        let begin = Instant::now();
+        (0..RUNS * STEPS).try_for_each(|_| simulation.step())?;
+        taken += begin.elapsed();
+        moved = simulation.robots().to_vec();
+    }
+    Ok((taken.as_secs_f64() / (repeats * RUNS * STEPS * count) as f64, moved))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().skip(1).find(|argument| !argument.starts_with("--"));
-    let mut output = Output::new(folder)?;
-    for count in [250, 20_000] {
+    let files = Files::new(folder)?;
+    for count in [FEW, MANY] {
         let scenario = scenario(count)?;
         let rows = |points: &mut dyn Iterator<Item = Vector2<f64>>| {
             points.map(|point| vec![point.x, point.y]).collect::<Vec<_>>().into_iter()
         };
         let starts = scenario.robots.iter().map(|robot| robot.position);
-        output.rows(&format!("starts_{count}.txt"), rows(&mut starts.clone()))?;
+        files.rows(&format!("starts_{count}.txt"), rows(&mut starts.clone()))?;
         // What a scenario file of the same needs besides.
-        output.rows(&format!("goal_{count}.txt"), rows(&mut scenario.team_goal.into_iter()))?;
+        files.rows(&format!("goal_{count}.txt"), rows(&mut scenario.team_goal.into_iter()))?;
         let discs = scenario.obstacles.iter().map(|disc| disc.shape.outline().points[0]);
-        output.rows(&format!("discs_{count}.txt"), rows(&mut discs.into_iter()))?;
+        files.rows(&format!("discs_{count}.txt"), rows(&mut discs.into_iter()))?;
         let mut nearest = starts.map(|start| scenario.segment.nearest(start).point);
-        output.rows(&format!("ends_{count}.txt"), rows(&mut nearest))?;
-        let moved = measure(&mut output, &scenario, 1)?;
-        if moved != measure(&mut output, &scenario, 2)? {
+        files.rows(&format!("ends_{count}.txt"), rows(&mut nearest))?;
+        let (one, moved) = measure(&scenario, 1)?;
+        let (two, same) = measure(&scenario, 2)?;
+        if moved != same {
             return Err(format!("{count} robots move differently on two threads").into());
         }
-        output.rows(&format!("moved_{count}.txt"), rows(&mut moved.iter().map(|robot| robot.position)))?;
+        println!("{count:>6} robots: {:.3} us an agent step, {:.3} us on two threads", 1e6 * one, 1e6 * two);
+        files.rows(&format!("times_{count}.txt"), [vec![one, two]].into_iter())?;
+        files.rows(&format!("moved_{count}.txt"), rows(&mut moved.iter().map(|robot| robot.position)))?;
     }
-    output.finish()
+    Ok(())
 }

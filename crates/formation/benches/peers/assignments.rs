@@ -1,5 +1,6 @@
 //! Robots to places at the least sum of squared distances, with the proof.
-use crate::output::{Output, random};
+use crate::files::random;
+use crate::output::Output;
 use std::error::Error;
 use trench_formation::assignment::{AssignmentError, CostMatrix, solve, solve_again};
 

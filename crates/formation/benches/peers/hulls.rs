@@ -1,5 +1,6 @@
 //! 10,000 polygons of 12 points, 1 m to 4 m across, on a square kilometre, combined to the fixpoint with a clearance of 1 m.
-use crate::output::{Output, random};
+use crate::files::random;
+use crate::output::Output;
 use std::error::Error;
 use trench_formation::Vector2;
 use trench_formation::hull::{HullError, Obstacle, Shape, combine};

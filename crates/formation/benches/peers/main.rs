@@ -4,6 +4,7 @@
 #![expect(clippy::print_stdout, reason = "the figures are the purpose")]
 
 mod assignments;
+mod files;
 mod hulls;
 mod nearest;
 mod output;

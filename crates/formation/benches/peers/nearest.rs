@@ -1,5 +1,6 @@
 //! Certified nearest points of 10,000 points: polylines, on which the peers are exact, and splines through the same corners.
-use crate::output::{Output, random};
+use crate::files::random;
+use crate::output::Output;
 use std::error::Error;
 use trench_formation::Vector2;
 use trench_formation::curve::{Curve, CurveShape, Warm};

@@ -132,6 +132,8 @@ impl Publication {
         let source = Source { gid: self.network.gid(), sequence: self.sent };
         let may_be_missed = self.qos.reliability == Reliability::BestEffort;
         let wants_copy = self.to_network && !(alone && may_be_missed);
+        // Over Zenoh whoever is about to come may hear what is said before it can be heard of, and would miss what follows.
+        let has_readers = self.is_read || self.last_words || !local.may_be_alone;
         let mut copy = None;
         let keep = |message: &[u8]| copy = wants_copy.then(|| Bytes::copy_from_slice(message));
         let written = local.writer.publish_with(source, max_len, fill, keep);
@@ -142,7 +144,7 @@ impl Publication {
         }
         if let Some(message) = copy {
             let burst = local.held.keep(self.sent, message, now);
-            if burst || !alone || !all_woken {
+            if has_readers && (burst || !alone || !all_woken) {
                 for (count, message) in local.held.release(now) {
                     self.network.write_counted(message, count).map_err(|_congested| PublishProblem::Congested)?;
                 }
