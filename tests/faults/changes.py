@@ -11,6 +11,10 @@ from hosts import BASE
 from launched import Launched
 
 
+# How long who asks for changes may take to go, s.
+FAREWELL = 10.0
+
+
 class Changes:
     """Somebody at the base station who asks for them (change.py)."""
 
@@ -48,4 +52,10 @@ class Changes:
             self.thread.join()
         if self.process:
             self.process.stdin.close()
-            self.process.wait()
+            try:
+                self.process.wait(FAREWELL)
+            except subprocess.TimeoutExpired:
+                # Of rclpy: a thread of Fast DDS 3.2.2 was seen to read one sample of ros_discovery_info again and again that its pool had taken back
+                # (all zeros), after those who wrote it had left. It had nothing to do any more.
+                self.process.kill()
+                self.process.wait()

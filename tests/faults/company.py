@@ -18,6 +18,8 @@ import verdict
 DOMAINS = 100
 # How often processes are looked at, s.
 GLANCE = 0.2
+# How long a run may take beyond its duration, s: to start, to be judged, and what it waits for at its end. Who takes longer hangs.
+BEYOND = 240.0
 # What a run takes of the machine, on one host and on several, and what each of the jobs at once may take. On two cores three jobs are four
 # runs on one host or two on several: with three of these the kernel itself brought bytes over a pseudo-terminal up to 0.1 s late.
 LIGHT, SEVERAL, WHOLE = 3, 6, 4
@@ -30,10 +32,21 @@ class Job:
     run: dict
     seed: int
     process: subprocess.Popen | None = None
+    began: float = 0.0
+    hurried: bool = False
 
     def folder(self, results: Path) -> Path:
         """Where its results are."""
         return results / self.run["name"] / str(self.seed)
+
+    def hurry(self) -> None:
+        """Ends a run that hangs, by an interrupt at first, so that it cleans up."""
+        late = time.monotonic() - self.began - float(self.run["arguments"]["duration"]) - BEYOND
+        if late > BEYOND:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        elif late > 0.0 and not self.hurried:
+            self.hurried = True
+            self.process.send_signal(signal.SIGINT)
 
     def cost(self) -> int:
         """What it takes of the machine."""
@@ -84,6 +97,8 @@ class Company:
                     running.append(self._start(fitting))
                     continue
                 time.sleep(GLANCE)
+                for job in running:
+                    job.hurry()
                 for job in [job for job in running if job.process.poll() is not None]:
                     running.remove(job)
                     self._end(job, at_once > 1)
@@ -106,6 +121,7 @@ class Company:
                 # An interrupt from the terminal comes through us alone.
                 start_new_session=True,
             )
+        job.began = time.monotonic()
         return job
 
     def _end(self, job: Job, in_company: bool) -> None:

@@ -5,11 +5,10 @@ use super::{Agent, AgentSettings, Method};
 use crate::Vector2;
 use crate::curve::Curve;
 use crate::kinematics::PointState;
-use crate::lanes::{LANES, Plane, Vectors, mask};
+use crate::lanes::{LANES, Lanes, Plane, Vectors};
 use crate::laws::{Push, Seen, Steered, Terms, Unpushed};
 use crate::seek::LeaderRule;
 use crate::trench::Trench;
-use wide::f64x4;
 
 /// What robots side by side see.
 pub(crate) struct Side<'a> {
@@ -24,51 +23,51 @@ pub(crate) struct Side<'a> {
 }
 
 /// What robots side by side do, in the lanes that `told` is set in: bit for bit what [`Agent::act_at`] says.
-pub(crate) struct Abreast {
+pub(crate) struct Abreast<L> {
     told: u32,
-    steered: Vectors,
-    lyapunov: f64x4,
-    lyapunov_rate: f64x4,
-    power: f64x4,
-    applied: Vectors,
+    steered: Vectors<L>,
+    lyapunov: L,
+    lyapunov_rate: L,
+    power: L,
+    applied: Vectors<L>,
     cut: u32,
-    foot: Vectors,
-    deviation: f64x4,
+    foot: Vectors<L>,
+    deviation: L,
 }
 
-impl Abreast {
+impl<L: Lanes> Abreast<L> {
     /// Whether it tells what the robot in a lane does.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn tells(&self, lane: usize) -> bool {
         self.told & (1 << lane) != 0
     }
 
     /// What the leader brings into the Lyapunov function, m^2/s^3.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn power(&self, lane: usize) -> f64 {
-        self.power.as_array()[lane]
+        self.power.to_array()[lane]
     }
 
     /// What the law says.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn steered(&self, lane: usize) -> Steered {
         Steered {
-            acceleration: self.steered.get(lane),
-            lyapunov: self.lyapunov.as_array()[lane],
-            lyapunov_rate: self.lyapunov_rate.as_array()[lane],
+            acceleration: self.steered.to_array()[lane],
+            lyapunov: self.lyapunov.to_array()[lane],
+            lyapunov_rate: self.lyapunov_rate.to_array()[lane],
         }
     }
 
     /// What limits leave of it, m/s^2, and whether they cut.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn applied(&self, lane: usize) -> (Vector2<f64>, bool) {
-        (self.applied.get(lane), self.cut & (1 << lane) != 0)
+        (self.applied.to_array()[lane], self.cut & (1 << lane) != 0)
     }
 
     /// The nearest point, which draws the robot, and its distance, m.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn drawn(&self, lane: usize) -> (Vector2<f64>, f64) {
-        (self.foot.get(lane), self.deviation.as_array()[lane])
+        (self.foot.to_array()[lane], self.deviation.to_array()[lane])
     }
 }
 
@@ -80,14 +79,14 @@ impl<T: Trench> Agent<T> {
     }
 
     /// [`Self::act_at`] for a step of `step` (s), for robots under the same settings of which it is quickly told; none if there are none.
-    #[inline]
-    pub(crate) fn act_abreast(
+    #[inline(always)]
+    pub(crate) fn act_abreast<L: Lanes>(
         settings: &AgentSettings<T>,
         agents: &mut [Self; LANES],
         robots: &[PointState; LANES],
         side: &Side<'_>,
         step: f64,
-    ) -> Option<Abreast> {
+    ) -> Option<Abreast<L>> {
         let Moment { since, segment, motion } = side.moment;
         let plain = settings.method == Method::Nearest
             && settings.remedies.is_none()
@@ -97,7 +96,7 @@ impl<T: Trench> Agent<T> {
             return None;
         }
         let (position, velocity) =
-            (Vectors::of(robots.map(|robot| robot.position)), Vectors::of(robots.map(|robot| robot.velocity)));
+            (Vectors::<L>::of(robots.map(|robot| robot.position)), Vectors::of(robots.map(|robot| robot.velocity)));
         let feet = segment.nearest_abreast(position, agents.each_ref().map(|agent| agent.seeker.warm()))?;
         let seeking = &settings.seeking;
         let keeps = core::array::from_fn(|lane| {
@@ -105,18 +104,18 @@ impl<T: Trench> Agent<T> {
                 && agents[lane].tie == Tie::Whole
                 && agents[lane].seeker.keeps(seeking, &agents[lane].fragments, feet.arc_length[lane])
         });
-        let mut told = feet.known & mask(keeps);
+        let mut told = feet.known & L::mask(keeps);
         // Zones.
-        let (radii, splat) = (settings.zoning.radii(), f64x4::splat);
+        let (radii, splat) = (settings.zoning.radii(), L::splat);
         let leader = Vectors::of(side.leaders.map(|leader| leader.coasted(*since).position));
         let leader_velocity = Vectors::of(side.leaders.map(|leader| leader.velocity));
         let apart = (leader - position).norm();
-        let (inner, outer) = (apart.simd_ge(splat(radii.rho_hat)), apart.simd_le(splat(radii.rho)));
+        let (inner, outer) = (splat(radii.rho_hat).is_at_most(apart), apart.is_at_most(splat(radii.rho)));
         if seeking.leader_rule == LeaderRule::WholeSegmentWhileFar {
-            told &= outer;
+            told = told & outer;
         }
-        let under_way = f64x4::new(side.deviations).simd_gt(splat(seeking.settled_distance));
-        told &= under_way | (leader - feet.point).norm().simd_lt(splat(radii.rho_check));
+        let under_way = splat(seeking.settled_distance).is_below(L::new(side.deviations));
+        told = told & (under_way | (leader - feet.point).norm().is_below(splat(radii.rho_check)));
         // The law.
         let still = Vectors::splat(motion.origin.velocity);
         let frame = Vectors::splat(motion.origin.acceleration);
@@ -127,12 +126,13 @@ impl<T: Trench> Agent<T> {
             leader_velocity: Some(leader_velocity - still + still),
         });
         let mut walls = Vectors::splat(Vector2::zeros());
-        if !(inner & outer).all() {
+        if !(inner & outer).is_whole() {
+            let (position, leader) = (position.to_array(), leader.to_array());
             let pushes = core::array::from_fn::<_, LANES, _>(|lane| {
-                Push::of_leader(&settings.zoning, position.get(lane), leader.get(lane))
+                Push::of_leader(&settings.zoning, position[lane], leader[lane])
             });
             walls = Vectors::of(pushes.map(|push| push.force));
-            lyapunov += f64x4::new(pushes.map(|push| push.value));
+            lyapunov = lyapunov + L::new(pushes.map(|push| push.value));
         }
         let (steered, power) = (acceleration + walls, walls.dot(&(leader_velocity - still)));
         // Limits, where they cut nothing.
@@ -141,16 +141,16 @@ impl<T: Trench> Agent<T> {
         if let Some(limits) = settings.limits {
             let terms = Terms { walls, attraction: trench, damping: wanted - walls - trench };
             let (cut, whole) = limits.whole(velocity - still, &terms, step);
-            told &= whole;
+            told = told & whole;
             applied = cut + frame;
-            differs = (cut.x.simd_ne(wanted.x) | cut.y.simd_ne(wanted.y)).to_bitmask();
+            differs = (cut.x.is_not(wanted.x) | cut.y.is_not(wanted.y)).bits();
         }
-        let (told, deviation) = (told.to_bitmask(), (feet.point - position).norm());
-        let now = side.time + since;
+        let (told, deviation) = (told.bits(), (feet.point - position).norm());
+        let (now, distances) = (side.time + since, deviation.to_array());
         for (lane, agent) in agents.iter_mut().enumerate() {
             if told & (1 << lane) != 0 {
                 agent.seeker.keep(feet.arc_length[lane]);
-                agent.arrived = deviation.as_array()[lane] <= seeking.settled_distance;
+                agent.arrived = distances[lane] <= seeking.settled_distance;
                 agent.last = Some(now);
             }
         }

@@ -4,14 +4,13 @@ use super::path::{Path, horner};
 use super::primitive::Jet;
 use super::{Curve, Warm};
 use crate::Vector2;
-use crate::lanes::{LANES, Plane, Vectors, mask};
-use wide::f64x4;
+use crate::lanes::{LANES, Lanes, Plane, Vectors};
 
 /// Nearest points, in the lanes that `known` is set in: bit for bit those that [`Curve::nearest_again`] finds.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Feet {
-    pub(crate) known: f64x4,
-    pub(crate) point: Vectors,
+pub(crate) struct Feet<L> {
+    pub(crate) known: L,
+    pub(crate) point: Vectors<L>,
     pub(crate) arc_length: [f64; LANES],
 }
 
@@ -28,8 +27,8 @@ impl Curve {
     }
 
     /// The nearest points of those for whom it is quickly told, as [`Bend::rest`] does for one; none if there are no such points.
-    #[inline]
-    pub(crate) fn nearest_abreast(&self, points: Vectors, warm: [&Warm; LANES]) -> Option<Feet> {
+    #[inline(always)]
+    pub(crate) fn nearest_abreast<L: Lanes>(&self, points: Vectors<L>, warm: [&Warm; LANES]) -> Option<Feet<L>> {
         if self.open_start || self.open_end {
             return None;
         }
@@ -40,12 +39,12 @@ impl Curve {
         });
         // Lanes of which nothing is known do as another does, for nothing.
         let any = bends.into_iter().flatten().next()?;
-        let known = mask(bends.map(|bend| bend.is_some()));
+        let known = L::mask(bends.map(|bend| bend.is_some()));
         let bends = bends.map(|bend| bend.unwrap_or(any));
-        let (certain, parameter, jets) = rest(bends, points);
+        let (certain, parameter, jets) = rest::<L>(bends, points);
         let distance = (jets.point - points).norm();
-        let moved = (points - Vectors::of(warm.map(|warm| warm.centre))).norm();
-        let known = known & certain & (distance + moved).simd_lt(f64x4::new(warm.map(|warm| warm.room)));
+        let moved = (points - Vectors::<L>::of(warm.map(|warm| warm.centre))).norm();
+        let known = known & certain & (distance + moved).is_below(L::new(warm.map(|warm| warm.room)));
         let parameter = parameter.to_array();
         let arc_length = core::array::from_fn(|lane| match pieces[lane] {
             Some(piece) => self.arc_length_at(piece, parameter[lane]),
@@ -57,32 +56,32 @@ impl Curve {
 
 /// [`Bend::rest`]: where that has an answer, the parameters and what is there.
 #[inline(always)]
-fn rest(bends: [Known<'_>; LANES], points: Vectors) -> (f64x4, f64x4, Jet<Vectors>) {
-    let number = |of: fn(&Bend) -> f64| f64x4::new(bends.map(|(bend, _)| of(bend)));
+fn rest<L: Lanes>(bends: [Known<'_>; LANES], points: Vectors<L>) -> (L, L, Jet<Vectors<L>>) {
+    let number = |of: fn(&Bend) -> f64| L::new(bends.map(|(bend, _)| of(bend)));
     let jets = |of: fn(&Bend) -> &Jet| {
         let jets = bends.map(|(bend, _)| of(bend));
         Jet {
-            point: Vectors::of(jets.map(|jet| jet.point)),
-            first: Vectors::of(jets.map(|jet| jet.first)),
-            second: Vectors::of(jets.map(|jet| jet.second)),
+            point: Vectors::<L>::of(jets.map(|jet| jet.point)),
+            first: Vectors::<L>::of(jets.map(|jet| jet.first)),
+            second: Vectors::<L>::of(jets.map(|jet| jet.second)),
         }
     };
     let (start, middle, end) = (jets(|bend| &bend.ends[0]), jets(|bend| &bend.middle.jet), jets(|bend| &bend.ends[1]));
     let (calm, margin) = (number(|bend| bend.calm), number(|bend| bend.margin));
     let slopes = [start.slope(points), end.slope(points)];
-    let near = (middle.point - points).norm_squared().simd_le(calm * calm);
-    let beside = slopes[0].simd_lt(-margin) & slopes[1].simd_gt(margin);
+    let near = (middle.point - points).norm_squared().is_at_most(calm * calm);
+    let beside = slopes[0].is_below(-margin) & margin.is_below(slopes[1]);
     let (from, guess) = guess([&start, &middle, &end], slopes, points);
     let (jets, third) = along(bends, guess);
     let step = jets.step_of_third_order(third, points);
     let t = guess + step;
-    let inside = from.simd_le(t) & t.simd_le(from + 1.0) & step.abs().simd_lt(f64x4::splat(SHORT));
+    let inside = from.is_at_most(t) & t.is_at_most(from + L::splat(1.0)) & step.magnitude().is_below(L::splat(SHORT));
     let moved = jets.moved(step, third);
     // A step of second order, where that was not all.
-    let there = step.abs().simd_lt(f64x4::splat(SHORTEST));
+    let there = step.magnitude().is_below(L::splat(SHORTEST));
     let more = moved.step_of_second_order(points);
     let further = moved.moved(more, third);
-    let t = there.select(t, t + more);
+    let t = t.or(there, t + more);
     let jets = Jet { point: moved.point.or(there, &further.point), ..moved };
     let parameter = number(|bend| bend.centre) + number(|bend| bend.half) * t;
     (near & beside & inside, parameter, jets)
@@ -90,13 +89,13 @@ fn rest(bends: [Known<'_>; LANES], points: Vectors) -> (f64x4, f64x4, Jet<Vector
 
 /// [`Path::at`](super::path::Path::at): position and three derivatives.
 #[inline(always)]
-fn along(bends: [Known<'_>; LANES], t: f64x4) -> (Jet<Vectors>, Vectors) {
+fn along<L: Lanes>(bends: [Known<'_>; LANES], t: L) -> (Jet<Vectors<L>>, Vectors<L>) {
     let paths = bends.map(|(_, path)| path.coefficients());
     let count = bends.map(|(_, path)| path.count()).into_iter().max().unwrap_or(0);
     let terms = (0..count).rev().map(|index| {
         let coefficients = paths.map(|path| path[index].to_array());
-        Vectors::of(coefficients.map(|[x, y]| Vector2::new(x, y)))
+        Vectors::<L>::of(coefficients.map(|[x, y]| Vector2::new(x, y)))
     });
     let [point, first, second, third] = horner(terms, t, Vectors::splat(Vector2::zeros()));
-    (Jet { point, first, second: f64x4::splat(2.0) * second }, f64x4::splat(6.0) * third)
+    (Jet { point, first, second: L::splat(2.0) * second }, L::splat(6.0) * third)
 }

@@ -121,7 +121,7 @@ impl Builder<'_> {
     fn keep(&mut self, columns: &Range<usize>, rows: &Range<usize>, begin: usize) {
         let at = |column: usize, row: usize| self.table.low + self.side * Vector2::new(column as f64, row as f64);
         let (low, high) = (at(columns.start, rows.start), at(columns.end, rows.end));
-        let corners = Vectors::of([low, Vector2::new(high.x, low.y), Vector2::new(low.x, high.y), high]);
+        let corners = Vectors::<f64x4>::of([low, Vector2::new(high.x, low.y), Vector2::new(low.x, high.y), high]);
         // The points of the curve nearest to the corners, how far these may be from there, and the distance that is less than.
         let (mut nearest, mut off, mut least) = (corners, f64x4::ZERO, f64x4::splat(f64::INFINITY));
         self.distances.clear();
@@ -136,9 +136,10 @@ impl Builder<'_> {
             (off, least) = (nearer.select(sagitta, off), nearer.select(distance + sagitta, least));
             self.distances.push(distance);
         }
+        let nearest = nearest.to_array();
         let reach: [f64x4; LANES] = core::array::from_fn(|corner| {
             let off = f64x4::splat(off.as_array()[corner] + self.slack);
-            (corners - Vectors::splat(nearest.get(corner))).norm() + off
+            (corners - Vectors::splat(nearest[corner])).norm() + off
         });
         for (offset, distances) in self.distances.iter().enumerate() {
             let index = self.pending[begin + offset];

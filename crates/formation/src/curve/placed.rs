@@ -1,8 +1,7 @@
 //! A curve seen from the frame in which its formation moves.
 use super::{Curve, Feet, Foot, Interval, NearestSet, Warm};
-use crate::lanes::{LANES, Plane, Vectors};
+use crate::lanes::{LANES, Lanes, Plane, Vectors};
 use nalgebra::{Isometry2, Vector2};
-use wide::f64x4;
 
 /// A curve and the pose of its frame, for instance the target's: all queries are in frame `map`.
 #[derive(Debug, Clone, Copy)]
@@ -38,11 +37,11 @@ impl<'a> Placed<'a> {
     }
 
     /// As [`Curve::nearest_abreast`].
-    #[inline]
-    pub(crate) fn nearest_abreast(&self, points: Vectors, warm: [&Warm; LANES]) -> Option<Feet> {
+    #[inline(always)]
+    pub(crate) fn nearest_abreast<L: Lanes>(&self, points: Vectors<L>, warm: [&Warm; LANES]) -> Option<Feet<L>> {
         let (rotation, translation) = (self.map_from_curve.rotation, self.map_from_curve.translation.vector);
-        let turned = |re: f64, im: f64, vectors: Vectors| {
-            let (re, im) = (f64x4::splat(re), f64x4::splat(im));
+        let turned = |re: f64, im: f64, vectors: Vectors<L>| {
+            let (re, im) = (L::splat(re), L::splat(im));
             Vectors { x: re * vectors.x - im * vectors.y, y: im * vectors.x + re * vectors.y }
         };
         let translation = Vectors::splat(translation);

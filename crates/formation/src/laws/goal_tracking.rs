@@ -87,7 +87,7 @@ impl<T: Trench, D: Damping> GoalTracking<T, D> {
 }
 
 /// Phi'(d) d_hat. On the goal point, where d_hat does not exist, the gradient contains 0 and the force is 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn pull<V: Plane>(trench: &impl Trench, offset: V) -> V {
     let (distance, none) = (offset.norm(), V::Number::splat(0.0));
     let factor = distance.each(|distance| trench.slope(distance)) / distance;

@@ -8,10 +8,13 @@ use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surround
 use crate::curve::Placed;
 use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
-use crate::lanes::LANES;
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::Avx;
+use crate::lanes::{LANES, Lanes};
 use crate::laws::RigidMotion;
 use crate::trench::Trench;
 use nalgebra::Isometry2;
+use wide::f64x4;
 
 /// How many robots ahead of those that act the segment is called for: pieces lie far apart in memory.
 const AHEAD: usize = 8;
@@ -46,6 +49,24 @@ pub(super) struct Part<'a, T> {
 impl<T: Trench> View<'_, T> {
     /// One step of some robots.
     pub(super) fn act(&self, since: f64, part: Part<'_, T>) {
+        #[cfg(target_arch = "x86_64")]
+        if Avx::is_there() {
+            #[expect(unsafe_code, reason = "this processor has the instructions")]
+            return unsafe { self.act_by_avx(since, part) };
+        }
+        self.act_in::<f64x4>(since, part);
+    }
+
+    /// The same on processors with AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn act_by_avx(&self, since: f64, part: Part<'_, T>) {
+        self.act_in::<Avx>(since, part);
+    }
+
+    /// The same in lanes of a kind, bit for bit.
+    #[inline(always)]
+    fn act_in<L: Lanes>(&self, since: f64, part: Part<'_, T>) {
         let (step, integration) = (self.scenario.step, self.scenario.options.integration);
         let mut around = self.around(part.first);
         let moment = around.moment(since);
@@ -60,7 +81,7 @@ impl<T: Trench> View<'_, T> {
             for agent in later.iter().skip(AHEAD).step_by(2).take(2) {
                 agent.call_for(&self.scenario.segment);
             }
-            let abreast = self.abreast(&settings, &moment, first, agents, robots);
+            let abreast = self.abreast::<L>(&settings, &moment, first, agents, robots);
             let several = agents.iter_mut().zip(robots).zip(outcomes.iter_mut().zip(deviations));
             for (lane, ((agent, robot), (outcome, deviation))) in several.enumerate() {
                 if let Some(abreast) = abreast.as_ref().filter(|abreast| abreast.tells(lane)) {
@@ -90,15 +111,15 @@ impl<T: Trench> View<'_, T> {
     }
 
     /// What robots side by side do, from the one of index `first` on, if that can be told of them together.
-    #[inline]
-    fn abreast(
+    #[inline(always)]
+    fn abreast<L: Lanes>(
         &self,
         settings: &AgentSettings<T>,
         moment: &Moment<'_>,
         first: usize,
         agents: &mut [Agent<T>],
         robots: &[PointState],
-    ) -> Option<Abreast> {
+    ) -> Option<Abreast<L>> {
         let (agents, robots) = (agents.try_into().ok()?, robots.try_into().ok()?);
         let leader = |lane: usize| (first + lane).saturating_sub(1);
         let side = Side {
@@ -158,3 +179,7 @@ impl<T: Trench> View<'_, T> {
         around.behind = self.seen.len() - index - 1;
     }
 }
+
+#[cfg(test)]
+#[cfg(target_arch = "x86_64")]
+mod tests;

@@ -1,8 +1,16 @@
 //! Numbers and vectors of the plane side by side: what one vector instruction does to all of them. Lane by lane the results are
 //! those of scalar code that does the same in the same order, bit for bit; what is written for any [`Number`] is that code for both.
 use crate::Vector2;
-use core::ops::{Add, BitAnd, Div, Mul, Neg, Sub};
-use wide::f64x4;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
+
+#[cfg(target_arch = "x86_64")]
+mod avx;
+mod portable;
+
+#[cfg(target_arch = "x86_64")]
+pub(crate) use avx::Avx;
+#[cfg(all(test, target_arch = "x86_64"))]
+pub(crate) use avx::HIDDEN;
 
 /// How many.
 pub(crate) const LANES: usize = 4;
@@ -99,81 +107,71 @@ impl Plane for Vector2<f64> {
     }
 }
 
-impl Number for f64x4 {
-    type Vector = Vectors;
-    type Mask = Self;
+/// As many numbers side by side as [`LANES`]; a mask is such numbers, of bits that are all set or none.
+pub(crate) trait Lanes:
+    Number<Vector = Vectors<Self>, Mask = Self> + BitAnd<Output = Self> + BitOr<Output = Self>
+{
+    fn new(numbers: [f64; LANES]) -> Self;
+    fn to_array(self) -> [f64; LANES];
+    fn is_not(self, other: Self) -> Self;
+    fn magnitude(self) -> Self;
+    /// A bit for each lane in which a mask is set.
+    fn bits(self) -> u32;
 
+    /// A mask from a condition for each lane.
     #[inline(always)]
-    fn splat(number: f64) -> Self {
-        Self::splat(number)
+    fn mask(lanes: [bool; LANES]) -> Self {
+        Self::new(lanes.map(|lane| f64::from_bits(if lane { u64::MAX } else { 0 })))
     }
 
+    /// Whether a mask is set in all lanes.
     #[inline(always)]
-    fn is_below(self, other: Self) -> Self {
-        self.simd_lt(other)
-    }
-
-    #[inline(always)]
-    fn is_at_most(self, other: Self) -> Self {
-        self.simd_le(other)
-    }
-
-    #[inline(always)]
-    fn or(self, mask: Self, other: Self) -> Self {
-        mask.select(self, other)
-    }
-
-    #[inline(always)]
-    fn each(self, function: impl Fn(f64) -> f64) -> Self {
-        Self::new(self.to_array().map(function))
-    }
-
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
+    fn is_whole(self) -> bool {
+        self.bits() == (1 << LANES) - 1
     }
 }
 
 /// A vector in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Vectors {
-    pub(crate) x: f64x4,
-    pub(crate) y: f64x4,
+pub(crate) struct Vectors<L> {
+    pub(crate) x: L,
+    pub(crate) y: L,
 }
 
-impl Vectors {
+impl<L: Lanes> Vectors<L> {
     #[inline(always)]
     pub(crate) fn of(vectors: [Vector2<f64>; LANES]) -> Self {
-        Self { x: f64x4::new(vectors.map(|vector| vector.x)), y: f64x4::new(vectors.map(|vector| vector.y)) }
+        Self { x: L::new(vectors.map(|vector| vector.x)), y: L::new(vectors.map(|vector| vector.y)) }
     }
 
     #[inline(always)]
-    pub(crate) fn get(&self, lane: usize) -> Vector2<f64> {
-        Vector2::new(self.x.as_array()[lane], self.y.as_array()[lane])
+    pub(crate) fn to_array(self) -> [Vector2<f64>; LANES] {
+        let (x, y) = (self.x.to_array(), self.y.to_array());
+        core::array::from_fn(|lane| Vector2::new(x[lane], y[lane]))
     }
 
     /// Lanes of `self` where `mask` is set, of `other` elsewhere.
     #[inline(always)]
-    pub(crate) fn or(&self, mask: f64x4, other: &Self) -> Self {
-        Self { x: mask.select(self.x, other.x), y: mask.select(self.y, other.y) }
+    pub(crate) fn or(&self, mask: L, other: &Self) -> Self {
+        Self { x: self.x.or(mask, other.x), y: self.y.or(mask, other.y) }
     }
 }
 
-impl Plane for Vectors {
-    type Number = f64x4;
+impl<L: Lanes> Plane for Vectors<L> {
+    type Number = L;
 
     #[inline(always)]
     fn splat(vector: Vector2<f64>) -> Self {
-        Self { x: f64x4::splat(vector.x), y: f64x4::splat(vector.y) }
+        Self { x: L::splat(vector.x), y: L::splat(vector.y) }
     }
 
     #[inline(always)]
-    fn dot(&self, other: &Self) -> f64x4 {
+    fn dot(&self, other: &Self) -> L {
         self.x * other.x + self.y * other.y
     }
 }
 
-impl Add for Vectors {
+impl<L: Lanes> Add for Vectors<L> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -181,26 +179,12 @@ impl Add for Vectors {
     }
 }
 
-impl Sub for Vectors {
+impl<L: Lanes> Sub for Vectors<L> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self { x: self.x - other.x, y: self.y - other.y }
     }
-}
-
-impl Mul<Vectors> for f64x4 {
-    type Output = Vectors;
-    #[inline(always)]
-    fn mul(self, vectors: Vectors) -> Vectors {
-        Vectors { x: self * vectors.x, y: self * vectors.y }
-    }
-}
-
-/// A mask from a condition for each lane.
-#[inline(always)]
-pub(crate) fn mask(lanes: [bool; LANES]) -> f64x4 {
-    f64x4::new(lanes.map(|lane| f64::from_bits(if lane { u64::MAX } else { 0 })))
 }
 
 /// Lets the beginning of what will be read soon come nearer to the processor, without waiting for it.
