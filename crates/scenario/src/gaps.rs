@@ -141,7 +141,8 @@ mod tests {
                 starts.iter().map(|&(x, y)| PointState::at_rest(Vector2::new(x, y))).collect();
             let mut real = obstacles(&at)?;
             let (mut gaps, mut least) = (Gaps::default(), vec![f64::INFINITY; at.len()]);
-            let (mut before, mut shift, mut collisions) = (team.clone(), Vector2::zeros(), Collisions::default());
+            let (mut before, mut then, mut collisions) = (team.clone(), real.clone(), Collisions::default());
+            let corner = |obstacle: &Obstacle| obstacle.shape.outline().points[0];
             for step in 0..40 {
                 let time = f64::from(step);
                 gaps.prepare(&real, &team);
@@ -153,7 +154,9 @@ mod tests {
                     for (number, (obstacle, least)) in real.iter().zip(&mut least).enumerate() {
                         let outline = obstacle.shape.outline();
                         let gap = outline.approach(robot.position).gap;
-                        let way = outline.gap(&Outline { points: &[before.position + shift, robot.position], radius: 0.0 });
+                        // What an obstacle has moved by is known from where it was, to the last bit.
+                        let from = before.position + (corner(obstacle) - corner(&then[number]));
+                        let way = outline.gap(&Outline { points: &[from, robot.position], radius: 0.0 });
                         *least = least.min(gap).min(way.max(0.0));
                         let (pair, obstacle) = ((index, number), obstacle.id);
                         collisions.note(Meeting { time, pair, obstacle, outline, way, gap });
@@ -167,11 +170,10 @@ mod tests {
                 for (robot, (x, y)) in team.iter_mut().zip(&moves) {
                     robot.position += Vector2::new(*x, *y) * if step % 7 < 4 { 0.3 } else { -0.25 };
                 }
-                shift = Vector2::zeros();
+                then.clone_from(&real);
                 if step % 10 == 9 {
-                    shift = Vector2::new(1.0, -0.5);
                     for obstacle in &mut real {
-                        obstacle.shape = obstacle.shape.moved(shift)?;
+                        obstacle.shape = obstacle.shape.moved(Vector2::new(1.0, -0.5))?;
                     }
                 }
             }
