@@ -55,10 +55,10 @@ impl Risen {
             let gap = instead(index).unwrap_or(least).min(pace.cut).max(whole.gap);
             let below = gap - whole.gap;
             let rising = pace.step.filter(|step| *step > 0.0).map_or(0.0, |step| pace.rising.min(below / step));
-            let member = || around.approach_of_members(index, since, robot.position).filter(|member| member.gap < gap);
-            let (seen, rising) = match Some(()).filter(|()| below > 0.0).and_then(|()| member()) {
-                Some(member) => (member, Vector2::zeros()),
-                None => (Approach { gap, ..whole }, -rising * whole.towards),
+            let members = || around.approach_of_members(index, since, robot.position);
+            let (seen, rising) = match (below > 0.0).then(members).flatten() {
+                Some(member) if member.gap < gap => (member, Vector2::zeros()),
+                _ => (Approach { gap, ..whole }, -rising * whole.towards),
             };
             self.hulls.push(Hull { id, gap, seen, rising });
         }

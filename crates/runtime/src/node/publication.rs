@@ -131,20 +131,20 @@ impl Publication {
         local.alone = alone;
         let source = Source { gid: self.network.gid(), sequence: self.sent };
         let may_be_missed = self.qos.reliability == Reliability::BestEffort;
-        let wants_copy = self.to_network && !(alone && may_be_missed);
         // Over Zenoh whoever is about to come may hear what is said before it can be heard of, and would miss what follows.
-        let has_readers = self.is_read || self.last_words || !local.may_be_alone;
+        let to_network = self.to_network && (self.is_read || self.last_words || !local.may_be_alone);
+        let wants_copy = to_network && !(alone && may_be_missed);
         let mut copy = None;
         let keep = |message: &[u8]| copy = wants_copy.then(|| Bytes::copy_from_slice(message));
         let written = local.writer.publish_with(source, max_len, fill, keep);
         let all_woken = written.as_ref().is_ok_and(|all| *all);
         let problem = written.err();
-        if problem.is_some() && self.to_network && copy.is_none() {
+        if problem.is_some() && to_network && copy.is_none() {
             copy = Some(encode(max_len, fill));
         }
         if let Some(message) = copy {
             let burst = local.held.keep(self.sent, message, now);
-            if has_readers && (burst || !alone || !all_woken) {
+            if burst || !alone || !all_woken {
                 for (count, message) in local.held.release(now) {
                     self.network.write_counted(message, count).map_err(|_congested| PublishProblem::Congested)?;
                 }
