@@ -1,6 +1,7 @@
 //! Assignments against all permutations, with their certificates.
 #![expect(clippy::unwrap_used, reason = "a failed construction is a failed test")]
 use proptest::prelude::*;
+use trench_formation::Vector2;
 use trench_formation::assignment::{
     AssignmentError, CostMatrix, Hysteresis, assign_to_queues, reassign, robots_per_queue, solve, solve_again,
 };
@@ -116,4 +117,12 @@ fn robots_go_to_the_nearest_queues_with_room() {
     assert_eq!(assign_to_queues(&distances, &counts, &[1, 1, 1], much).unwrap(), [0, 1, 0], "queue 1 has one place");
     assert!(matches!(assign_to_queues(&distances, &[1, 1], &[], NONE), Err(AssignmentError::TooFewPlaces { .. })));
     assert!(CostMatrix::new(vec![f64::NAN], 1, 1).is_err() && CostMatrix::new(vec![1.0], 2, 1).is_err());
+    let (robots, places) =
+        ([Vector2::new(1.0, 2.0), Vector2::new(0.0, 0.0)], [Vector2::new(4.0, 6.0), Vector2::new(1.0, 2.0)]);
+    let squares = CostMatrix::new(vec![25.0, 0.0, 52.0, 5.0], 2, 2);
+    assert_eq!(CostMatrix::squared_distances(&robots, &places), squares);
+    let lost = CostMatrix::squared_distances(&robots, &[Vector2::new(0.0, f64::NAN)]);
+    assert!(matches!(lost, Err(AssignmentError::NotFinite { row: 0, column: 0, .. })));
+    let far = CostMatrix::squared_distances(&robots, &[places[0], Vector2::new(1e200, 0.0)]);
+    assert!(matches!(far, Err(AssignmentError::NotFinite { row: 0, column: 1, .. })));
 }

@@ -100,8 +100,8 @@ pub fn organise(
         queue.curve.at(queue.places[place].start).point
     };
     let starts: Vec<Vector2<f64>> = open.iter().map(start).collect();
-    let costs = robots.iter().flat_map(|(_, robot)| starts.iter().map(move |start| (robot - start).norm_squared()));
-    let costs = CostMatrix::new(costs.collect(), robots.len(), open.len())?;
+    let positions: Vec<Vector2<f64>> = robots.iter().map(|(_, position)| *position).collect();
+    let costs = CostMatrix::squared_distances(&positions, &starts)?;
     let margin = Hysteresis { relative: seating.keep_margin, absolute: NOISE * robots.len() as f64 };
     let columns = reassign(&costs, &present_columns(robots, &open, present), margin)?;
     let seats: Vec<(usize, usize)> = columns.into_iter().map(|column| open[column]).collect();

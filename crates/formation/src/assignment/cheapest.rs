@@ -1,6 +1,5 @@
 //! The cheapest columns of a row, in vector code: most of the time of an assignment whose prices are nearly right.
-use super::search::LANES;
-use wide::f64x4;
+use crate::lanes::{LANES, Lanes};
 
 /// The least and second least reduced cost of a row, the latter infinite where there is one column alone, and the first column at
 /// the least.
@@ -11,13 +10,14 @@ pub(super) struct Cheapest {
 }
 
 /// Of a row's costs under the prices `v` of the columns.
-pub(super) fn cheapest(costs: &[f64], v: &[f64]) -> Cheapest {
+#[inline(always)]
+pub(super) fn cheapest<L: Lanes>(costs: &[f64], v: &[f64]) -> Cheapest {
     let ((costs_lanes, costs_rest), (v_lanes, v_rest)) = (costs.as_chunks::<LANES>(), v.as_chunks::<LANES>());
-    let (mut firsts, mut seconds) = (f64x4::splat(f64::INFINITY), f64x4::splat(f64::INFINITY));
+    let (mut firsts, mut seconds) = (L::splat(f64::INFINITY), L::splat(f64::INFINITY));
     for (costs, v) in costs_lanes.iter().zip(v_lanes) {
-        let reduced = f64x4::new(*costs) - f64x4::new(*v);
-        seconds = seconds.fast_min(firsts.fast_max(reduced));
-        firsts = firsts.fast_min(reduced);
+        let reduced = L::new(*costs) - L::new(*v);
+        seconds = seconds.least(firsts.most(reduced));
+        firsts = firsts.least(reduced);
     }
     let (mut first, mut second) = (f64::INFINITY, f64::INFINITY);
     let mut take = |reduced: f64| {
@@ -27,24 +27,29 @@ pub(super) fn cheapest(costs: &[f64], v: &[f64]) -> Cheapest {
     };
     firsts.to_array().into_iter().chain(seconds.to_array()).for_each(&mut take);
     costs_rest.iter().zip(v_rest).for_each(|(cost, v)| take(cost - v));
-    Cheapest { first, second, column: next_at(costs, v, 0, first).unwrap_or(0) }
+    Cheapest { first, second, column: next_at::<L>(costs, v, 0, first).unwrap_or(0) }
 }
 
 /// The first column, from `begin` on, at a reduced cost.
-pub(super) fn next_at(costs: &[f64], v: &[f64], begin: usize, reduced: f64) -> Option<usize> {
+#[inline(always)]
+pub(super) fn next_at<L: Lanes>(costs: &[f64], v: &[f64], begin: usize, reduced: f64) -> Option<usize> {
     let (costs, v) = (costs.get(begin..)?, v.get(begin..)?);
-    let (costs_lanes, v_lanes) = (costs.as_chunks::<LANES>().0, v.as_chunks::<LANES>().0);
-    let at = f64x4::splat(reduced);
-    let mut lanes = costs_lanes.iter().zip(v_lanes);
-    let lane = lanes.position(|(costs, v)| (f64x4::new(*costs) - f64x4::new(*v)).simd_eq(at).any());
-    let skipped = LANES * lane.unwrap_or(costs_lanes.len());
-    let mut rest = costs[skipped..].iter().zip(&v[skipped..]);
-    rest.position(|(cost, v)| cost - v == reduced).map(|column| begin + skipped + column)
+    let ((costs_lanes, costs_rest), (v_lanes, v_rest)) = (costs.as_chunks::<LANES>(), v.as_chunks::<LANES>());
+    let at = L::splat(reduced);
+    for (lane, (costs, v)) in costs_lanes.iter().zip(v_lanes).enumerate() {
+        let others = (L::new(*costs) - L::new(*v)).is_not(at);
+        if !others.is_whole() {
+            return Some(begin + LANES * lane + others.bits().trailing_ones() as usize);
+        }
+    }
+    let rest = costs_rest.iter().zip(v_rest).position(|(cost, v)| cost - v == reduced);
+    rest.map(|column| begin + LANES * costs_lanes.len() + column)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wide::f64x4;
 
     #[test]
     fn as_one_column_after_the_other() {
@@ -62,13 +67,13 @@ mod tests {
             let reduced: Vec<f64> = costs.iter().zip(&v).map(|(cost, v)| cost - v).collect();
             let mut sorted = reduced.clone();
             sorted.sort_by(f64::total_cmp);
-            let found = cheapest(&costs, &v);
+            let found = cheapest::<f64x4>(&costs, &v);
             let column = reduced.iter().position(|value| *value == sorted[0]);
             assert_eq!((found.first, Some(found.column)), (sorted[0], column));
             assert_eq!(found.second, sorted.get(1).copied().unwrap_or(f64::INFINITY));
             let next = reduced.iter().skip(found.column + 1).position(|value| *value == sorted[0]);
             let next = next.map(|later| found.column + 1 + later);
-            assert_eq!(next_at(&costs, &v, found.column + 1, found.first), next);
+            assert_eq!(next_at::<f64x4>(&costs, &v, found.column + 1, found.first), next);
         }
     }
 }

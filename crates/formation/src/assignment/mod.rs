@@ -12,6 +12,7 @@ pub use hysteresis::{Hysteresis, assign_to_queues, reassign};
 pub use shares::robots_per_queue;
 pub use solve::{Optimum, solve, solve_again};
 
+use crate::Vector2;
 use thiserror::Error;
 
 /// Why there is no assignment.
@@ -73,10 +74,24 @@ impl CostMatrix {
         if rows.checked_mul(columns) != Some(values.len()) {
             return Err(AssignmentError::Shape { values: values.len(), columns });
         }
-        match values.iter().position(|value| !value.is_finite()) {
-            Some(at) => Err(AssignmentError::NotFinite { row: at / columns, column: at % columns, value: values[at] }),
-            None => Ok(Self { values, rows, columns }),
+        // To look at all is quicker than to stop at the first.
+        if values.iter().fold(true, |finite, value| finite & value.is_finite()) {
+            return Ok(Self { values, rows, columns });
         }
+        let at = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
+        Err(AssignmentError::NotFinite { row: at / columns, column: at % columns, value: values[at] })
+    }
+
+    /// Squared distances (m^2) of robots, a row each, from places, a column each.
+    ///
+    /// # Errors
+    /// Positions that are not finite, or too far apart to square.
+    pub fn squared_distances(robots: &[Vector2<f64>], places: &[Vector2<f64>]) -> Result<Self, AssignmentError> {
+        let mut values = Vec::with_capacity(robots.len() * places.len());
+        for robot in robots {
+            values.extend(places.iter().map(|place| (robot - place).norm_squared()));
+        }
+        Self::new(values, robots.len(), places.len())
     }
 
     /// Number of rows.

@@ -1,9 +1,8 @@
-//! Dijkstra's search from one row over reduced costs, in loops over plain slices that compilers turn into vector code.
+//! Dijkstra's search from one row over reduced costs, in vector code.
 use super::CostMatrix;
 use super::solve::FREE;
+use crate::lanes::{LANES, Lanes};
 
-/// Columns that are treated alike at a time.
-pub(super) const LANES: usize = 4;
 /// Columns whose least distance is kept together.
 const BLOCK: usize = 64;
 
@@ -13,8 +12,8 @@ pub(super) struct Search {
     open: Vec<f64>,
     /// v, and minus infinity for columns that are reached for good: no distance of theirs is shorter.
     prices: Vec<f64>,
-    /// Row from which the shortest path comes; as wide as a distance, for vector code.
-    previous: Vec<u64>,
+    /// Row from which the shortest path comes; a number like a distance, for vector code.
+    previous: Vec<f64>,
     /// Least distance of each block of columns.
     least: Vec<f64>,
     /// Columns reached for good, in order, and their distances.
@@ -27,7 +26,7 @@ impl Search {
         Self {
             open: vec![0.0; columns],
             prices: vec![0.0; columns],
-            previous: vec![0; columns],
+            previous: vec![0.0; columns],
             least: vec![0.0; columns.div_ceil(BLOCK)],
             scanned: Vec::with_capacity(columns),
             reached: 0.0,
@@ -40,7 +39,8 @@ impl Search {
     }
 
     /// The nearest free column.
-    pub(super) fn shortest_path(
+    #[inline(always)]
+    pub(super) fn shortest_path<L: Lanes>(
         &mut self,
         costs: &CostMatrix,
         from: usize,
@@ -53,8 +53,8 @@ impl Search {
         self.reached = 0.0;
         let mut row = from;
         loop {
-            self.relax(costs.row(row), self.reached - u[row], row as u64);
-            let column = self.nearest();
+            self.relax::<L>(costs.row(row), self.reached - u[row], row as f64);
+            let column = self.nearest::<L>();
             self.reached = self.open[column];
             self.scanned.push((column, self.reached));
             (self.open[column], self.prices[column]) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -66,7 +66,8 @@ impl Search {
     }
 
     /// Shortens the paths of all columns that are nearer by way of a row.
-    fn relax(&mut self, costs: &[f64], offset: f64, row: u64) {
+    #[inline(always)]
+    fn relax<L: Lanes>(&mut self, costs: &[f64], offset: f64, row: f64) {
         let blocks = self.open.chunks_mut(BLOCK).zip(self.previous.chunks_mut(BLOCK));
         let given = costs.chunks(BLOCK).zip(self.prices.chunks(BLOCK));
         for (((open, previous), (costs, prices)), least) in blocks.zip(given).zip(&mut self.least) {
@@ -74,35 +75,33 @@ impl Search {
             let (previous, previous_rest) = previous.as_chunks_mut::<LANES>();
             let ((costs, costs_rest), (prices, prices_rest)) =
                 (costs.as_chunks::<LANES>(), prices.as_chunks::<LANES>());
-            let mut lanes = [f64::INFINITY; LANES];
+            let mut lanes = L::splat(f64::INFINITY);
             for ((open, previous), (costs, prices)) in open.iter_mut().zip(previous).zip(costs.iter().zip(prices)) {
-                let distances: [f64; LANES] = core::array::from_fn(|lane| offset + costs[lane] - prices[lane]);
+                let (distance, before) = (L::splat(offset) + L::new(*costs) - L::new(*prices), L::new(*open));
+                let shorter = distance.is_below(before);
+                let now = distance.or(shorter, before);
                 // Most paths do not become shorter: no store is quicker than a store of the same.
-                if (0..LANES).any(|lane| distances[lane] < open[lane]) {
-                    for lane in 0..LANES {
-                        if distances[lane] < open[lane] {
-                            (open[lane], previous[lane]) = (distances[lane], row);
-                        }
-                    }
+                if shorter.bits() != 0 {
+                    *open = now.to_array();
+                    *previous = L::splat(row).or(shorter, L::new(*previous)).to_array();
                 }
-                for lane in 0..LANES {
-                    lanes[lane] = if open[lane] < lanes[lane] { open[lane] } else { lanes[lane] };
-                }
+                lanes = now.least(lanes);
             }
+            *least = lanes.to_array().into_iter().fold(f64::INFINITY, f64::min);
             let rest = open_rest.iter_mut().zip(previous_rest).zip(costs_rest.iter().zip(prices_rest));
             for ((open, previous), (cost, price)) in rest {
                 let distance = offset + cost - price;
                 if distance < *open {
                     (*open, *previous) = (distance, row);
                 }
-                lanes[0] = lanes[0].min(*open);
+                *least = least.min(*open);
             }
-            *least = lanes.into_iter().fold(f64::INFINITY, f64::min);
         }
     }
 
     /// The nearest column, the first of equally near ones.
-    fn nearest(&self) -> usize {
+    #[inline(always)]
+    fn nearest<L: Lanes>(&self) -> usize {
         let (mut block, mut least) = (0, f64::INFINITY);
         for (index, value) in self.least.iter().enumerate() {
             if *value < least {
@@ -110,7 +109,7 @@ impl Search {
             }
         }
         let begin = block * BLOCK;
-        begin + self.open[begin..].iter().position(|open| *open == least).unwrap_or(0)
+        begin + position::<L>(&self.open[begin..], least).unwrap_or(0)
     }
 
     /// Changes the dual variables so that the path costs nothing; `row_of` is as it was for the search.
@@ -124,4 +123,17 @@ impl Search {
             }
         }
     }
+}
+
+/// Where a value is first found.
+#[inline(always)]
+fn position<L: Lanes>(values: &[f64], wanted: f64) -> Option<usize> {
+    let (lanes, rest) = values.as_chunks::<LANES>();
+    for (lane, values) in lanes.iter().enumerate() {
+        let others = L::new(*values).is_not(L::splat(wanted));
+        if !others.is_whole() {
+            return Some(LANES * lane + others.bits().trailing_ones() as usize);
+        }
+    }
+    rest.iter().position(|value| *value == wanted).map(|column| LANES * lanes.len() + column)
 }

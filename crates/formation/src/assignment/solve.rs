@@ -5,6 +5,10 @@
 use super::cheapest::{Cheapest, cheapest, next_at};
 use super::search::Search;
 use super::{AssignmentError, CostMatrix};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::Avx;
+use crate::lanes::Lanes;
+use wide::f64x4;
 
 /// A cheapest assignment and the proof that it is one.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,12 +84,30 @@ impl<'a> Solver<'a> {
         Self { costs, u: vec![0.0; costs.rows()], v, row_of, column_of }
     }
 
-    fn solve(mut self) -> Optimum {
-        let waiting = self.reduce_rows();
-        let waiting = self.augment_rows(waiting);
+    fn solve(self) -> Optimum {
+        #[cfg(target_arch = "x86_64")]
+        if Avx::is_there() {
+            #[expect(unsafe_code, reason = "this processor has the instructions")]
+            return unsafe { self.solve_by_avx() };
+        }
+        self.solve_in::<f64x4>()
+    }
+
+    /// The same on processors with AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn solve_by_avx(self) -> Optimum {
+        self.solve_in::<Avx>()
+    }
+
+    /// The same in lanes of a kind, bit for bit.
+    #[inline(always)]
+    fn solve_in<L: Lanes>(mut self) -> Optimum {
+        let waiting = self.reduce_rows::<L>();
+        let waiting = self.augment_rows::<L>(waiting);
         let mut search = Search::new(self.costs.columns());
         for row in waiting {
-            let end = search.shortest_path(self.costs, row, (&self.u, &self.v), &self.row_of);
+            let end = search.shortest_path::<L>(self.costs, row, (&self.u, &self.v), &self.row_of);
             search.update(row, (&mut self.u, &mut self.v), &self.row_of);
             let mut column = end;
             while column != FREE {
@@ -102,10 +124,11 @@ impl<'a> Solver<'a> {
     }
 
     /// Gives each row its cheapest column if that is free; the rows that are left.
-    fn reduce_rows(&mut self) -> Vec<usize> {
+    #[inline(always)]
+    fn reduce_rows<L: Lanes>(&mut self) -> Vec<usize> {
         let mut waiting = Vec::new();
         for row in 0..self.column_of.len() {
-            let Cheapest { first, column, .. } = self.cheapest(row);
+            let Cheapest { first, column, .. } = self.cheapest::<L>(row);
             self.u[row] = first;
             if self.row_of[column] == FREE {
                 self.assign(row, column);
@@ -118,16 +141,17 @@ impl<'a> Solver<'a> {
 
     /// Lets each waiting row have its cheapest column, whose price falls until the second cheapest is as good; whoever had the
     /// column waits.
-    fn augment_rows(&mut self, rows: Vec<usize>) -> Vec<usize> {
+    #[inline(always)]
+    fn augment_rows<L: Lanes>(&mut self, rows: Vec<usize>) -> Vec<usize> {
         let (mut waiting, mut moves) = (Vec::new(), 0);
         for mut row in rows {
             loop {
-                let Cheapest { first, second, mut column } = self.cheapest(row);
+                let Cheapest { first, second, mut column } = self.cheapest::<L>(row);
                 let falls = first < second && second.is_finite();
                 if falls {
                     self.v[column] -= second - first;
                 } else if self.row_of[column] != FREE && first == second {
-                    column = next_at(self.costs.row(row), &self.v, column + 1, first).unwrap_or(column);
+                    column = next_at::<L>(self.costs.row(row), &self.v, column + 1, first).unwrap_or(column);
                 }
                 self.u[row] = if falls { second } else { first };
                 let evicted = self.row_of[column];
@@ -150,7 +174,7 @@ impl<'a> Solver<'a> {
             }
         }
         for row in &waiting {
-            self.u[*row] = self.cheapest(*row).first;
+            self.u[*row] = self.cheapest::<L>(*row).first;
         }
         waiting
     }
@@ -160,8 +184,9 @@ impl<'a> Solver<'a> {
         self.column_of[row] = column;
     }
 
-    fn cheapest(&self, row: usize) -> Cheapest {
-        cheapest(self.costs.row(row), &self.v)
+    #[inline(always)]
+    fn cheapest<L: Lanes>(&self, row: usize) -> Cheapest {
+        cheapest::<L>(self.costs.row(row), &self.v)
     }
 }
 
@@ -190,5 +215,28 @@ impl Optimum {
         }
         let free = (0..costs.columns()).filter(|column| !self.columns.contains(column));
         free.map(|column| v[column].abs()).fold(worst, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn processors_with_and_without_avx_assign_alike(
+            values in prop::collection::vec(0..200_u32, 40 * 41), changes in prop::collection::vec(0..9_u32, 40 * 41),
+            rows in 1..40_usize, spare in 0..2_usize,
+        ) {
+            let columns = rows + spare;
+            let costs = |values: Vec<f64>| CostMatrix::new(values[..rows * columns].to_vec(), rows, columns).unwrap();
+            let before = costs(values.iter().map(|value| 0.1 * f64::from(*value)).collect());
+            let sums = values.iter().zip(&changes).map(|(value, change)| 0.1 * f64::from(value + change));
+            let after = costs(sums.collect());
+            let prices = || solve(&before).unwrap().duals.1;
+            prop_assert_eq!(Solver::new(&before, prices()).solve(), Solver::new(&before, prices()).solve_in::<f64x4>());
+            prop_assert_eq!(Solver::new(&after, prices()).solve(), Solver::new(&after, prices()).solve_in::<f64x4>());
+        }
     }
 }

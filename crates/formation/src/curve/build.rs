@@ -5,7 +5,7 @@ use super::{
     candidates::Candidates,
     error::CurveError,
     extensions, graph,
-    piece::{LARGEST, Piece, cut},
+    piece::{LARGEST, Piece, Straight, cut},
     primitive::Primitive,
     shape::CurveShape,
     simple, spline,
@@ -39,7 +39,22 @@ impl Curve {
         let tree = BoxTree::new(&pieces);
         let stamp = stamp(&pieces);
         let candidates = Candidates::default();
-        let mut curve = Self { primitives, pieces, tree, candidates, stamp, length, closed, open_start, open_end };
+        let sagitta = pieces.iter().fold(0.0, |most: f64, piece| most.max(piece.sagitta));
+        let straight = |piece: &Piece| Straight::of(&primitives[piece.primitive]);
+        let straights = pieces.iter().map(straight).collect::<Option<Vec<_>>>().unwrap_or_default();
+        let mut curve = Self {
+            primitives,
+            pieces,
+            straights,
+            tree,
+            candidates,
+            stamp,
+            length,
+            sagitta,
+            closed,
+            open_start,
+            open_end,
+        };
         simple::check(&curve)?;
         extensions::check(&curve)?;
         curve.candidates = Candidates::new(&curve.pieces, length);

@@ -4,7 +4,7 @@
 //! inside of branches of hyperbolas about P where P is to be nearer by some length. So a point of the curve that is nearer to all four
 //! corners of a square than a piece is proves that the piece is nearest to nothing in it.
 use super::piece::Piece;
-use crate::lanes::{LANES, Plane, Vectors};
+use crate::lanes::{LANES, Lanes, Plane, Vectors};
 use core::ops::Range;
 use nalgebra::Vector2;
 use wide::f64x4;
@@ -12,8 +12,9 @@ use wide::f64x4;
 /// Squares of the grid for each piece, and at most.
 const SQUARES: usize = 8;
 const MOST_SQUARES: usize = 1 << 18;
-/// Most pieces that a square is told of, as many as fit into the lower bits of an entry; where it would be more, the tree of boxes is asked.
-pub(super) const MOST: usize = 15;
+/// Most blocks of pieces that a square is told of, as many as fit into the lower bits of an entry; where it would be more, the tree of
+/// boxes is asked.
+pub(super) const BLOCKS: usize = 3;
 /// So few pieces are not worth the division of what they are told to.
 const FEW: usize = 4;
 /// A curve of so few pieces has one node of boxes, which is as quick.
@@ -23,6 +24,35 @@ const BEYOND: (f64, f64) = (0.25, 16.0);
 /// How much larger squares are taken to be than they are, as a part of their side and of the largest coordinate.
 const ROUNDING: (f64, f64) = (1e-9, 1e-12);
 
+/// A piece as its chord, and what its squared length is divided by: all that most questions ask of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chord {
+    start: Vector2<f64>,
+    along: Vector2<f64>,
+    per_squared: f64,
+}
+
+impl Chord {
+    /// Farther than anything.
+    const NOWHERE: Self = Self { start: Vector2::new(1e150, 1e150), along: Vector2::new(0.0, 0.0), per_squared: 0.0 };
+
+    fn of(piece: &Piece) -> Self {
+        let along = piece.end - piece.start;
+        let squared = along.norm_squared();
+        Self { start: piece.start, along, per_squared: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
+    }
+
+    /// Squared distances of some from a point, m^2.
+    #[inline(always)]
+    fn distances_squared<L: Lanes>(chords: [&Self; LANES], point: Vector2<f64>) -> L {
+        let along = Vectors::<L>::of(chords.map(|chord| chord.along));
+        let offset = Vectors::splat(point) - Vectors::of(chords.map(|chord| chord.start));
+        let fraction = L::new(chords.map(|chord| chord.per_squared)) * Plane::dot(&offset, &along);
+        let fraction = fraction.most(L::splat(0.0)).least(L::splat(1.0));
+        (offset - fraction * along).norm_squared()
+    }
+}
+
 /// A grid over a curve and what lies around it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Candidates {
@@ -30,9 +60,12 @@ pub(super) struct Candidates {
     per_side: f64,
     columns: usize,
     rows: usize,
-    /// For each square, row by row, where its list begins times 16, and its length; 0 where it is unknown.
+    /// For each square, row by row, where its list begins, in blocks, times 4, and its length in blocks; 0 where it is unknown.
     squares: Vec<u32>,
-    lists: Vec<u32>,
+    /// Blocks of pieces; where there are no more, the one after the last.
+    lists: Vec<[u32; LANES]>,
+    /// Of all pieces, and of that one.
+    chords: Vec<Chord>,
 }
 
 impl Candidates {
@@ -49,25 +82,40 @@ impl Candidates {
         let (low, sides) = (low.add_scalar(-beyond), (high - low).add_scalar(2.0 * beyond));
         let side = (sides.x * sides.y / (SQUARES * pieces.len()).min(MOST_SQUARES) as f64).sqrt();
         let [columns, rows] = [sides.x, sides.y].map(|whole| libm::ceil(whole / side) as usize);
-        let table = Self { low, per_side: 1.0 / side, columns, rows, squares: vec![0; columns * rows], lists: vec![] };
+        let table = Self {
+            low,
+            per_side: 1.0 / side,
+            columns,
+            rows,
+            squares: vec![0; columns * rows],
+            lists: vec![],
+            chords: vec![],
+        };
         let largest = low.abs().max().max((low + sides).abs().max());
         let slack = ROUNDING.0 * side + ROUNDING.1 * largest;
         let pending = (0..pieces.len() as u32).collect();
         let mut builder = Builder { pieces, table, side, slack, pending, distances: vec![] };
         builder.fill(0..columns, 0..rows, 0);
-        builder.table
+        let chords = pieces.iter().map(Chord::of).chain([Chord::NOWHERE]).collect();
+        Self { chords, ..builder.table }
     }
 
     /// All pieces that can be nearest to `point`, in order, and perhaps others; nothing where that is not known.
     #[inline]
-    pub(super) fn near(&self, point: Vector2<f64>) -> Option<&[u32]> {
+    pub(super) fn near(&self, point: Vector2<f64>) -> Option<&[[u32; LANES]]> {
         let across = self.per_side * (point - self.low);
         if !(across.x >= 0.0 && across.y >= 0.0 && across.x < self.columns as f64 && across.y < self.rows as f64) {
             return None;
         }
         let square = self.squares[across.y as usize * self.columns + across.x as usize];
-        let (begin, count) = (square as usize / (MOST + 1), square as usize % (MOST + 1));
-        (count > 0).then(|| &self.lists[begin..begin + count])
+        let (begin, count) = (square as usize / (BLOCKS + 1), square as usize % (BLOCKS + 1));
+        self.lists.get(begin..begin + count).filter(|blocks| !blocks.is_empty())
+    }
+
+    /// Squared distances of the chords of a block of pieces from a point, m^2.
+    #[inline(always)]
+    pub(super) fn distances_squared<L: Lanes>(&self, block: &[u32; LANES], point: Vector2<f64>) -> L {
+        Chord::distances_squared(block.map(|index| &self.chords[index as usize]), point)
     }
 }
 
@@ -110,11 +158,14 @@ impl Builder<'_> {
     /// What a square says whose list are those pending from `begin` on.
     fn enlist(&mut self, begin: usize) -> u32 {
         let (list, at) = (&self.pending[begin..], self.table.lists.len());
-        if list.len() > MOST || at >= (u32::MAX as usize) / (MOST + 1) {
+        let blocks = list.len().div_ceil(LANES);
+        if blocks > BLOCKS || at >= (u32::MAX as usize) / (BLOCKS + 1) {
             return 0;
         }
-        self.table.lists.extend(list);
-        (at * (MOST + 1) + list.len()) as u32
+        let none = self.pieces.len() as u32;
+        let block = |some: &[u32]| core::array::from_fn(|lane| some.get(lane).copied().unwrap_or(none));
+        self.table.lists.extend(list.chunks(LANES).map(block));
+        (at * (BLOCKS + 1) + blocks) as u32
     }
 
     /// Adds those pending from `begin` on that can be nearest to something in a part of the grid.

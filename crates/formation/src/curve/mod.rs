@@ -66,11 +66,15 @@ pub struct Foot {
 pub struct Curve {
     primitives: Vec<primitive::Primitive>,
     pieces: Vec<piece::Piece>,
+    /// One for each piece if all are straight.
+    straights: Vec<piece::Straight>,
     tree: box_tree::BoxTree,
     candidates: candidates::Candidates,
     /// Tells this curve from others, for what was learnt of it before.
     stamp: u64,
     length: f64,
+    /// The greatest of the pieces, m.
+    sagitta: f64,
     closed: bool,
     open_start: bool,
     open_end: bool,

@@ -1,9 +1,14 @@
 //! Nearest points of a curve, (7.1) and (7.2): certified, with multiplicity.
-use super::candidates::MOST;
+use super::candidates::BLOCKS;
 use super::minimum::{Least, Minimum, interior_minima, only_minimum, solve};
+use super::piece::Straight;
 use super::primitive::Jet;
 use super::{Curve, Foot};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::Avx;
+use crate::lanes::{LANES, Lanes};
 use nalgebra::Vector2;
+use wide::f64x4;
 
 /// Distances that differ by no more than this (times 1 m + the distance) are equal.
 const TIE: f64 = 1e-9;
@@ -48,7 +53,7 @@ impl Curve {
     /// The best of all pieces.
     pub(super) fn best(&self, point: Vector2<f64>) -> Best {
         match self.candidates.near(point) {
-            Some(candidates) => self.best_among(point, candidates),
+            Some(near) => self.best_among(point, near),
             None => self.best_by_boxes(point),
         }
     }
@@ -60,29 +65,62 @@ impl Curve {
         best
     }
 
-    /// The best of some pieces: first that of the nearest chord, then those whose chords are no farther than they may lie off.
+    /// The best of some pieces.
     #[inline]
-    fn best_among(&self, point: Vector2<f64>, candidates: &[u32]) -> Best {
-        let mut squares = [0.0; MOST];
-        let (mut first, mut least) = (0, f64::INFINITY);
-        for (square, index) in squares.iter_mut().zip(candidates) {
-            *square = self.pieces[*index as usize].chord_distance_squared(point);
-            (first, least) = if *square < least { (*index, *square) } else { (first, least) };
+    fn best_among(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
+        #[cfg(target_arch = "x86_64")]
+        if Avx::is_there() {
+            #[expect(unsafe_code, reason = "this processor has the instructions")]
+            return unsafe { self.best_by_avx(point, blocks) };
         }
+        self.best_in::<f64x4>(point, blocks)
+    }
+
+    /// The same on processors with AVX2.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn best_by_avx(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
+        self.best_in::<Avx>(point, blocks)
+    }
+
+    /// The same in lanes of a kind: first that of the nearest chord, then those whose chords are no farther than they may lie off.
+    #[inline(always)]
+    fn best_in<L: Lanes>(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
+        let nothing = L::splat(f64::INFINITY);
+        let (mut squares, mut least, mut block_of) = ([nothing; BLOCKS], nothing, [0; LANES]);
+        for (offset, (square, block)) in squares.iter_mut().zip(blocks).enumerate() {
+            *square = self.candidates.distances_squared::<L>(block, point);
+            let nearer = square.is_below(least).bits();
+            least = square.least(least);
+            block_of = core::array::from_fn(|lane| if nearer & 1 << lane != 0 { offset } else { block_of[lane] });
+        }
+        let least = least.to_array();
+        let (mut first, mut at) = (LANES * block_of[0], least[0]);
+        for lane in 1..LANES {
+            let place = LANES * block_of[lane] + lane;
+            (first, at) = if least[lane] < at { (place, least[lane]) } else { (first, at) };
+        }
+        let piece = |place: usize| blocks[place / LANES][place % LANES] as usize;
         let mut best = self.none_yet();
-        self.look_at(point, first as usize, &mut best);
-        for (square, index) in squares.iter().zip(candidates) {
-            if *index != first && !self.is_farther(*index as usize, *square, &best) {
-                self.look_at(point, *index as usize, &mut best);
-            }
+        self.look_at(point, piece(first), &mut best);
+        let far = L::splat(self.most_square(self.sagitta, &best));
+        // A bit for each other that is no farther.
+        let mut others = 0;
+        for (offset, square) in squares.iter().enumerate() {
+            others |= square.is_at_most(far).bits() << (LANES * offset);
+        }
+        others &= !(1 << first);
+        while others != 0 {
+            self.improve(point, piece(others.trailing_zeros() as usize), &mut best);
+            others &= others - 1;
         }
         best
     }
 
     /// The best of all pieces, quickest if the piece `first` is near it.
     pub(super) fn best_from(&self, point: Vector2<f64>, first: usize) -> Best {
-        if let Some(candidates) = self.candidates.near(point) {
-            return self.best_among(point, candidates);
+        if let Some(near) = self.candidates.near(point) {
+            return self.best_among(point, near);
         }
         let mut best = self.none_yet();
         let reach = self.improve(point, first, &mut best);
@@ -107,22 +145,35 @@ impl Curve {
     /// Takes what a piece has that is nearer than `best`; the distance from then on.
     #[inline]
     pub(super) fn improve(&self, point: Vector2<f64>, index: usize, best: &mut Best) -> f64 {
-        if !self.is_farther(index, self.pieces[index].chord_distance_squared(point), best) {
+        let piece = &self.pieces[index];
+        if piece.chord_distance_squared(point) <= self.most_square(piece.sagitta, best) {
             self.look_at(point, index, best);
         }
         best.distance
     }
 
-    /// Whether a piece whose chord is so far (the square of it, m^2) has nothing as near as `best`.
-    #[inline]
-    fn is_farther(&self, index: usize, square: f64, best: &Best) -> bool {
-        let far = best.distance + self.pieces[index].sagitta;
-        square > far * far * (1.0 + CHORD) + CHORD * self.length
+    /// How far the chord of a piece of this sagitta (m) may be, as a square (m^2), for something of it to be as near as `best`.
+    #[inline(always)]
+    fn most_square(&self, sagitta: f64, best: &Best) -> f64 {
+        let far = best.distance + sagitta;
+        far * far * (1.0 + CHORD) + CHORD * self.length
     }
 
     /// [`Self::improve`] for a piece that is likely to be nearer.
-    #[inline(never)]
+    #[inline]
     pub(super) fn look_at(&self, point: Vector2<f64>, index: usize, best: &mut Best) {
+        let piece = &self.pieces[index];
+        let Some(straight) = self.straights.get(index) else { return self.look_at_bend(point, index, best) };
+        let parameter = straight.nearest(point).max(piece.from).min(piece.to);
+        let distance = (straight.at(parameter) - point).norm();
+        if (distance, index, parameter) < (best.distance, best.piece, best.parameter) {
+            *best = Best { distance, piece: index, parameter, jet: None };
+        }
+    }
+
+    /// The same for a piece that is not straight.
+    #[inline(never)]
+    fn look_at_bend(&self, point: Vector2<f64>, index: usize, best: &mut Best) {
         let piece = &self.pieces[index];
         let primitive = &self.primitives[piece.primitive];
         let mut offer = |distance: f64, parameter: f64, jet: Option<Jet>| {
@@ -156,8 +207,12 @@ impl Curve {
     /// The foot, on an extension if that is nearer.
     #[inline]
     pub(super) fn beyond_ends(&self, point: Vector2<f64>, best: Best) -> Foot {
-        if let (Some(jet), false) = (&best.jet, self.open_start || self.open_end) {
-            return self.foot_at(best.piece, best.parameter, jet, best.distance);
+        if !(self.open_start || self.open_end) {
+            if let Some(jet) = &best.jet {
+                return self.foot_at(best.piece, best.parameter, jet, best.distance);
+            } else if let Some(straight) = self.straights.get(best.piece) {
+                return self.foot_on_straight(&best, straight);
+            }
         }
         let nearer = self.extensions(point).filter(|(distance, _)| *distance < best.distance);
         let extension = nearer.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -307,6 +362,18 @@ impl Curve {
         }
     }
 
+    /// The same on a straight piece.
+    #[inline]
+    fn foot_on_straight(&self, best: &Best, straight: &Straight) -> Foot {
+        Foot {
+            arc_length: self.arc_length_at(best.piece, best.parameter),
+            point: straight.at(best.parameter),
+            tangent: straight.tangent,
+            curvature: straight.curvature,
+            distance: best.distance,
+        }
+    }
+
     /// One foot for each group that is one minimum (the nearest of it), none inside the ranges.
     fn distinct(&self, feet: Vec<(Foot, f64)>, ranges: &[(f64, f64)]) -> Vec<Foot> {
         let mut groups: Vec<(Foot, f64)> = Vec::new();
@@ -352,7 +419,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// What the squares of the grid are told misses nothing: near the curve and far, by chords and by bends, at joints and between them.
+        /// What the squares of the grid are told misses nothing: near the curve and far, by chords and by bends, at joints and between them,
+        /// on processors with AVX and without.
         #[test]
         fn candidates_hold_the_nearest_piece(
             turns in prop::collection::vec(-0.9..0.9_f64, 4..60), lengths in prop::collection::vec(0.02..2.0_f64, 60),
@@ -373,8 +441,11 @@ mod tests {
             let spots = queries.iter().map(|(x, y)| low + reach * Vector2::new(*x, *y));
             for point in spots.chain(joints.iter().copied()) {
                 let Some(candidates) = curve.candidates.near(point) else { continue };
-                let (of_few, of_all) = (curve.best_among(point, candidates), curve.best_by_boxes(point));
-                prop_assert_eq!((of_few.distance, of_few.piece, of_few.parameter), (of_all.distance, of_all.piece, of_all.parameter));
+                let of_all = curve.best_by_boxes(point);
+                for of_few in [curve.best_among(point, candidates), curve.best_in::<f64x4>(point, candidates)] {
+                    prop_assert_eq!((of_few.distance, of_few.piece, of_few.parameter), (of_all.distance, of_all.piece, of_all.parameter));
+                    prop_assert_eq!(curve.beyond_ends(point, of_few), curve.beyond_ends(point, of_all));
+                }
                 told += 1;
             }
             prop_assert!(told > 0 || curve.pieces.len() < 5);

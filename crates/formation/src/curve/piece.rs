@@ -35,6 +35,34 @@ pub(super) struct Piece {
     pub(super) bend: Option<Box<Bend>>,
 }
 
+/// A straight line, start + u direction, the tangent on it, and the curvature: a zero, of the sign that other primitives would give it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Straight {
+    start: Vector2<f64>,
+    direction: Vector2<f64>,
+    pub(super) tangent: Vector2<f64>,
+    pub(super) curvature: f64,
+}
+
+impl Straight {
+    pub(super) fn of(primitive: &Primitive) -> Option<Self> {
+        let Primitive::Line { start, direction } = *primitive else { return None };
+        let jet = primitive.evaluate(0.0);
+        Some(Self { start, direction, tangent: direction / direction.norm(), curvature: jet.first.perp(&jet.second) })
+    }
+
+    /// The parameter of the foot of the perpendicular.
+    #[inline]
+    pub(super) fn nearest(&self, point: Vector2<f64>) -> f64 {
+        (point - self.start).dot(&self.direction)
+    }
+
+    #[inline]
+    pub(super) fn at(&self, parameter: f64) -> Vector2<f64> {
+        self.start + parameter * self.direction
+    }
+}
+
 impl Piece {
     /// Arc length from its start to a parameter, m.
     #[inline]

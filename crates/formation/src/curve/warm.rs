@@ -1,4 +1,5 @@
 //! Nearest points of a point that moves: what is far stays far for a while.
+use super::piece::Piece;
 use super::{Curve, Foot};
 use nalgebra::Vector2;
 
@@ -77,7 +78,10 @@ impl Curve {
         };
         let room = || {
             let slack = ROUNDING * (self.length + best.distance);
-            self.room_beside(best.piece, point) * (1.0 - ROUNDING) - slack
+            // One that would not outlast another step like the last is none.
+            let step = if known { (point - warm.centre).norm() } else { 0.0 };
+            let least = best.distance + step;
+            self.room_beside(best.piece, point, least) * (1.0 - ROUNDING) - slack
         };
         *warm = Warm {
             stamp: self.stamp,
@@ -91,14 +95,19 @@ impl Curve {
         self.beyond_ends(point, best)
     }
 
-    /// A lower bound of the distance of all pieces but `index` and its neighbours.
-    fn room_beside(&self, index: usize, point: Vector2<f64>) -> f64 {
+    /// A lower bound of the distance of all pieces but `index` and its neighbours, m; nothing less than `least` is worth the search.
+    fn room_beside(&self, index: usize, point: Vector2<f64>, least: f64) -> f64 {
         let [before, after] = self.beside(index);
-        let mut room = f64::INFINITY;
+        let bound = |piece: &Piece| piece.chord_distance_squared(point).sqrt() - piece.sagitta;
+        // Most often these are the nearest.
+        let next = [before.and_then(|before| self.beside(before)[0]), after.and_then(|after| self.beside(after)[1])];
+        let mut room = next.into_iter().flatten().fold(f64::INFINITY, |room, next| room.min(bound(&self.pieces[next])));
+        if room < least {
+            return 0.0;
+        }
         self.tree.visit_near(point, room, |other| {
             if other != index && Some(other) != before && Some(other) != after {
-                let piece = &self.pieces[other];
-                room = room.min(piece.chord_distance_squared(point).sqrt() - piece.sagitta);
+                room = room.min(bound(&self.pieces[other]));
             }
             room.max(0.0)
         });

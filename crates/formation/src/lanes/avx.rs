@@ -3,8 +3,8 @@
 use super::{LANES, Lanes, Number, Vectors};
 use core::arch::x86_64::{
     __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _CMP_NEQ_UQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd,
-    _mm256_cmp_pd, _mm256_div_pd, _mm256_loadu_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_set1_pd,
-    _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
+    _mm256_cmp_pd, _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
+    _mm256_or_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_xor_pd,
 };
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
@@ -132,6 +132,18 @@ impl Lanes for Avx {
     }
 
     #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        // SAFETY: as `Avx` says.
+        Self(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        // SAFETY: as `Avx` says.
+        Self(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+
+    #[inline(always)]
     fn magnitude(self) -> Self {
         // SAFETY: as `Avx` says.
         Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
@@ -164,8 +176,20 @@ mod tests {
         ];
         let chosen = masks.map(|mask| a.or(mask, b));
         let bits = masks.map(|mask| L::splat(f64::from(mask.bits()) + f64::from(u8::from(mask.is_whole()))));
-        let numbers =
-            [a + b, a - b, a * b, a / b, -a, a.magnitude(), a.root(), a.each(libm::sin), Plane::dot(&x, &y), (a * y).y];
+        let numbers = [
+            a + b,
+            a - b,
+            a * b,
+            a / b,
+            -a,
+            a.least(b),
+            a.most(b),
+            a.magnitude(),
+            a.root(),
+            a.each(libm::sin),
+            Plane::dot(&x, &y),
+            (a * y).y,
+        ];
         let lanes = numbers.into_iter().chain(masks).chain(chosen).chain(bits).chain([x.or(masks[0], &y).x]);
         lanes.map(|lanes| lanes.to_array().map(f64::to_bits)).collect()
     }

@@ -114,6 +114,10 @@ pub(crate) trait Lanes:
     fn new(numbers: [f64; LANES]) -> Self;
     fn to_array(self) -> [f64; LANES];
     fn is_not(self, other: Self) -> Self;
+    /// The lesser of each, `other` where they are equal.
+    fn least(self, other: Self) -> Self;
+    /// The greater of each, `other` where they are equal.
+    fn most(self, other: Self) -> Self;
     fn magnitude(self) -> Self;
     /// A bit for each lane in which a mask is set.
     fn bits(self) -> u32;

@@ -55,6 +55,16 @@ impl Lanes for f64x4 {
     }
 
     #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        self.fast_min(other)
+    }
+
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        self.fast_max(other)
+    }
+
+    #[inline(always)]
     fn magnitude(self) -> Self {
         self.abs()
     }
