@@ -1,5 +1,6 @@
 //! A robot that has lost its team (Remark 6.2.1): with its collision avoidance activated it approaches the segment and moves
-//! along it, as fast as it may, towards the team goal, until it hears another robot of its queue.
+//! along it, as fast as it may, towards the team goal, until it hears another robot of its queue. Whom it sees on its way there it comes up to as a
+//! follower does, and no nearer: who went on would push those who stand in formation out of its way.
 
 use crate::segments::Way;
 use crate::tick::Tick;
@@ -33,17 +34,21 @@ impl Tick {
         let frame = inputs.goals.frame(acts)?;
         let hulls = inputs.obstacles.as_ref().map(|heard| heard.message.at(acts)).unwrap_or_default();
         let obstacles = (&hulls.apparent[..], dynamic.agent.potential.cut());
-        Some(point_ahead(&inputs.segments.as_ref()?.way(member.queue)?, frame, robot.position(), speed, obstacles))
+        let others: Vec<Vector2<f64>> = inputs.queue_seen(member).collect();
+        let others = (&others[..], dynamic.agent.zoning.radii().rho);
+        let way = inputs.segments.as_ref()?.way(member.queue)?;
+        Some(point_ahead(&way, frame, robot.position(), speed, others, obstacles))
     }
 }
 
-/// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s): behind obstacles on the segment that repel it
-/// within `reach` (m).
+/// Where a robot at `robot` (map, m) goes next on its way to the team goal at `speed` (m/s): no nearer than `apart` (m) to others on the segment,
+/// and behind obstacles on it that repel it within `reach` (m).
 fn point_ahead(
     way: &Way<'_>,
     (map_from_segment, motion): (Isometry2<f64>, RigidMotion),
     robot: Vector2<f64>,
     speed: f64,
+    (others, apart): (&[Vector2<f64>], f64),
     (apparent, reach): (&[ApparentObstacle], f64),
 ) -> GoalMotion {
     let segment = Placed::new(way.curve, map_from_segment);
@@ -55,12 +60,19 @@ fn point_ahead(
     if here.distance > CLOSE * way.tolerance {
         return motion.at(here.point);
     }
-    if left.abs() <= LEAD {
+    let before = |other: &Vector2<f64>| {
+        let foot = segment.nearest(*other);
+        let ahead = way.curve.way(here.arc_length, foot.arc_length) * left.signum();
+        (foot.distance < apart && ahead > 0.0).then_some(ahead - apart)
+    };
+    let room = others.iter().filter_map(before).fold(f64::INFINITY, f64::min).max(0.0);
+    if left.abs() <= LEAD.min(room) {
         return motion.at(segment.at(here.arc_length + left).point);
     }
-    let ahead = segment.at(here.arc_length + LEAD.copysign(left));
+    let lead = LEAD.min(room);
+    let ahead = segment.at(here.arc_length + lead.copysign(left));
     let carried = motion.at(ahead.point);
-    GoalMotion { velocity: carried.velocity + speed.copysign(left) * ahead.tangent, ..carried }
+    GoalMotion { velocity: carried.velocity + lead / LEAD * speed.copysign(left) * ahead.tangent, ..carried }
 }
 
 #[cfg(test)]
@@ -81,7 +93,7 @@ mod tests {
         };
         let frame = (Isometry2::translation(3.0, 1.0), RigidMotion { origin, ..RigidMotion::at_rest() });
         let check = |robot: [f64; 2], point: [f64; 2], speed: f64| {
-            let goal = point_ahead(&way, frame, robot.into(), 0.2, (&[], 0.3));
+            let goal = point_ahead(&way, frame, robot.into(), 0.2, (&[], 0.3), (&[], 0.3));
             let expected = Vector2::from(point);
             assert!((goal.position - expected).norm() < 1e-9, "{robot:?}: {goal:?}");
             assert!((goal.velocity - Vector2::new(speed, 0.0)).norm() < 1e-9, "{robot:?}: {goal:?}");
@@ -89,10 +101,23 @@ mod tests {
         check([1.5, 2.0], [1.5, 1.0], 0.06);
         check([1.5, 1.1], [1.8, 1.0], 0.26);
         check([2.9, 1.0], [3.0, 1.0], 0.06);
+        // No nearer to others than a follower: not to those beside the segment, behind it and beyond.
+        let others = [[1.9, 1.5], [1.4, 1.0], [2.8, 1.1], [2.0, 1.1]].map(Vector2::from);
+        let among = |robot: [f64; 2], others: &[Vector2<f64>]| {
+            let goal = point_ahead(&way, frame, robot.into(), 0.2, (others, 0.3), (&[], 0.3));
+            [goal.position.x, goal.position.y, goal.velocity.x]
+        };
+        let same = |goal: [f64; 3], expected: [f64; 3]| {
+            assert!(goal.iter().zip(expected).all(|(value, expected)| (value - expected).abs() < 1e-9), "{goal:?}");
+        };
+        same(among([1.5, 1.0], &others[..3]), [1.8, 1.0, 0.26]);
+        same(among([1.5, 1.0], &others), [1.7, 1.0, 0.06 + 0.2 * 0.2 / 0.3]);
+        same(among([1.75, 1.0], &others), [1.75, 1.0, 0.06]);
+        same(among([2.95, 1.0], &[Vector2::new(3.0, 1.0)]), [2.95, 1.0, 0.06]);
         // Behind what stands on the segment there is a point that goes with it.
         let disc = Obstacle { id: 1, shape: Shape::new(&[Vector2::new(2.0, 1.0)], 0.1).unwrap() };
         let apparent = combine(&[disc], 0.0).unwrap();
-        let goal = point_ahead(&way, frame, Vector2::new(1.6, 1.1), 0.2, (&apparent, 0.3));
+        let goal = point_ahead(&way, frame, Vector2::new(1.6, 1.1), 0.2, (&[], 0.3), (&apparent, 0.3));
         assert!((2.4..2.5).contains(&goal.position.x) && goal.velocity == Vector2::new(0.06, 0.0), "{goal:?}");
     }
 }

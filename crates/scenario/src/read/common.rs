@@ -193,9 +193,8 @@ pub(super) fn trench(map: &Map<'_>, key: &str) -> Result<AnyTrench, ConfigError>
                 None => ("slope", Meaning::Slope),
             };
             let written = Written::new(trench_plan::expression(map.node(key)?)?, meaning, range);
-            AnyTrench::Written(Box::new(
-                written.map_err(|error| map.error(key, error.to_string(), "write another formula"))?,
-            ))
+            let remedy = "write another formula, or how far it holds, for example range: 100.0 (m; beyond, the slope stays what it is there)";
+            AnyTrench::Written(Box::new(written.map_err(|error| map.error(key, error.to_string(), remedy))?))
         }
     };
     map.finish()?;

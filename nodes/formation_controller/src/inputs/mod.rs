@@ -111,6 +111,14 @@ impl Inputs {
         seen.filter(move |other| members.is_some_and(|members| members.iter().all(|member| member.robot != other.name)))
     }
 
+    /// Where the other robots of a member's queue are seen, m, map.
+    pub(crate) fn queue_seen(&self, member: &Member) -> impl Iterator<Item = Vector2<f64>> {
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        let others = members.filter(|other| other.queue == member.queue && other.robot != member.robot);
+        let seen = others.filter_map(|other| self.robot(&other.robot));
+        seen.filter(|seen| seen.status != RobotState::STATUS_LOST).map(|seen| Vector2::new(seen.x, seen.y))
+    }
+
     /// The place of `robot`, if the formation that it is in is known.
     pub(crate) fn member(&self, robot: &str) -> Option<&Member> {
         let (assignment, segments) = (self.assignment.as_ref()?, self.segments.as_ref()?);
