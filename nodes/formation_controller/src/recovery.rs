@@ -66,10 +66,10 @@ fn point_ahead(
         (foot.distance < apart && ahead > 0.0).then_some(ahead - apart)
     };
     let room = others.iter().filter_map(before).fold(f64::INFINITY, f64::min).max(0.0);
-    if left.abs() <= LEAD.min(room) {
+    let lead = LEAD.min(room);
+    if left.abs() <= lead {
         return motion.at(segment.at(here.arc_length + left).point);
     }
-    let lead = LEAD.min(room);
     let ahead = segment.at(here.arc_length + lead.copysign(left));
     let carried = motion.at(ahead.point);
     GoalMotion { velocity: carried.velocity + lead / LEAD * speed.copysign(left) * ahead.tangent, ..carried }

@@ -1,5 +1,5 @@
 //! The cheapest columns of a row, in vector code: most of the time of an assignment whose prices are nearly right.
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes, first_at};
 
 /// The least and second least reduced cost of a row, the latter infinite where there is one column alone, and the first column at
 /// the least.
@@ -35,15 +35,10 @@ pub(super) fn cheapest<L: Lanes>(costs: &[f64], v: &[f64]) -> Cheapest {
 pub(super) fn next_at<L: Lanes>(costs: &[f64], v: &[f64], begin: usize, reduced: f64) -> Option<usize> {
     let (costs, v) = (costs.get(begin..)?, v.get(begin..)?);
     let ((costs_lanes, costs_rest), (v_lanes, v_rest)) = (costs.as_chunks::<LANES>(), v.as_chunks::<LANES>());
-    let at = L::splat(reduced);
-    for (lane, (costs, v)) in costs_lanes.iter().zip(v_lanes).enumerate() {
-        let others = (L::new(*costs) - L::new(*v)).is_not(at);
-        if !others.is_whole() {
-            return Some(begin + LANES * lane + others.bits().trailing_ones() as usize);
-        }
-    }
-    let rest = costs_rest.iter().zip(v_rest).position(|(cost, v)| cost - v == reduced);
-    rest.map(|column| begin + LANES * costs_lanes.len() + column)
+    let all = costs_lanes.iter().zip(v_lanes).map(|(costs, v)| L::new(*costs) - L::new(*v));
+    let in_rest = || costs_rest.iter().zip(v_rest).position(|(cost, v)| cost - v == reduced);
+    let found = first_at(all, reduced).or_else(|| Some(LANES * costs_lanes.len() + in_rest()?));
+    found.map(|column| begin + column)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Dijkstra's search from one row over reduced costs, in vector code.
 use super::CostMatrix;
 use super::solve::FREE;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes, first_at};
 
 /// Columns whose least distance is kept together.
 const BLOCK: usize = 64;
@@ -129,11 +129,7 @@ impl Search {
 #[inline(always)]
 fn position<L: Lanes>(values: &[f64], wanted: f64) -> Option<usize> {
     let (lanes, rest) = values.as_chunks::<LANES>();
-    for (lane, values) in lanes.iter().enumerate() {
-        let others = L::new(*values).is_not(L::splat(wanted));
-        if !others.is_whole() {
-            return Some(LANES * lane + others.bits().trailing_ones() as usize);
-        }
-    }
-    rest.iter().position(|value| *value == wanted).map(|column| LANES * lanes.len() + column)
+    let in_rest = || rest.iter().position(|value| *value == wanted);
+    let all = lanes.iter().map(|values| L::new(*values));
+    first_at(all, wanted).or_else(|| Some(LANES * lanes.len() + in_rest()?))
 }

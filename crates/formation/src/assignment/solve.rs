@@ -5,10 +5,7 @@
 use super::cheapest::{Cheapest, cheapest, next_at};
 use super::search::Search;
 use super::{AssignmentError, CostMatrix};
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx;
-use crate::lanes::Lanes;
-use wide::f64x4;
+use crate::lanes::{Lanes, Work, in_widest};
 
 /// A cheapest assignment and the proof that it is one.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,42 +82,7 @@ impl<'a> Solver<'a> {
     }
 
     fn solve(self) -> Optimum {
-        #[cfg(target_arch = "x86_64")]
-        if Avx::is_there() {
-            #[expect(unsafe_code, reason = "this processor has the instructions")]
-            return unsafe { self.solve_by_avx() };
-        }
-        self.solve_in::<f64x4>()
-    }
-
-    /// The same on processors with AVX2.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn solve_by_avx(self) -> Optimum {
-        self.solve_in::<Avx>()
-    }
-
-    /// The same in lanes of a kind, bit for bit.
-    #[inline(always)]
-    fn solve_in<L: Lanes>(mut self) -> Optimum {
-        let waiting = self.reduce_rows::<L>();
-        let waiting = self.augment_rows::<L>(waiting);
-        let mut search = Search::new(self.costs.columns());
-        for row in waiting {
-            let end = search.shortest_path::<L>(self.costs, row, (&self.u, &self.v), &self.row_of);
-            search.update(row, (&mut self.u, &mut self.v), &self.row_of);
-            let mut column = end;
-            while column != FREE {
-                let from = search.previous(column);
-                self.row_of[column] = from;
-                column = core::mem::replace(&mut self.column_of[from], column);
-                if from == row {
-                    break;
-                }
-            }
-        }
-        let total = self.column_of.iter().enumerate().map(|(row, column)| self.costs.at(row, *column)).sum();
-        Optimum { columns: self.column_of, total, duals: (self.u, self.v) }
+        in_widest(self)
     }
 
     /// Gives each row its cheapest column if that is free; the rows that are left.
@@ -190,6 +152,32 @@ impl<'a> Solver<'a> {
     }
 }
 
+impl Work for Solver<'_> {
+    type Output = Optimum;
+
+    #[inline(always)]
+    fn in_lanes<L: Lanes>(mut self) -> Optimum {
+        let waiting = self.reduce_rows::<L>();
+        let waiting = self.augment_rows::<L>(waiting);
+        let mut search = Search::new(self.costs.columns());
+        for row in waiting {
+            let end = search.shortest_path::<L>(self.costs, row, (&self.u, &self.v), &self.row_of);
+            search.update(row, (&mut self.u, &mut self.v), &self.row_of);
+            let mut column = end;
+            while column != FREE {
+                let from = search.previous(column);
+                self.row_of[column] = from;
+                column = core::mem::replace(&mut self.column_of[from], column);
+                if from == row {
+                    break;
+                }
+            }
+        }
+        let total = self.column_of.iter().enumerate().map(|(row, column)| self.costs.at(row, *column)).sum();
+        Optimum { columns: self.column_of, total, duals: (self.u, self.v) }
+    }
+}
+
 impl Optimum {
     /// The same with all v_j <= 0, which costs nothing: what the columns give up goes to the rows.
     fn lowered(mut self) -> Self {
@@ -222,6 +210,7 @@ impl Optimum {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use wide::f64x4;
 
     proptest! {
         #[test]
@@ -235,8 +224,8 @@ mod tests {
             let sums = values.iter().zip(&changes).map(|(value, change)| 0.1 * f64::from(value + change));
             let after = costs(sums.collect());
             let prices = || solve(&before).unwrap().duals.1;
-            prop_assert_eq!(Solver::new(&before, prices()).solve(), Solver::new(&before, prices()).solve_in::<f64x4>());
-            prop_assert_eq!(Solver::new(&after, prices()).solve(), Solver::new(&after, prices()).solve_in::<f64x4>());
+            prop_assert_eq!(Solver::new(&before, prices()).solve(), Solver::new(&before, prices()).in_lanes::<f64x4>());
+            prop_assert_eq!(Solver::new(&after, prices()).solve(), Solver::new(&after, prices()).in_lanes::<f64x4>());
         }
     }
 }

@@ -26,7 +26,7 @@ const ROUNDING: (f64, f64) = (1e-9, 1e-12);
 
 /// A piece as its chord, and what its squared length is divided by: all that most questions ask of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Chord {
+struct Chord {
     start: Vector2<f64>,
     along: Vector2<f64>,
     per_squared: f64,
@@ -42,14 +42,13 @@ impl Chord {
         Self { start: piece.start, along, per_squared: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
     }
 
-    /// Squared distances of some from a point, m^2.
+    /// From the nearest points of some to a point each, m.
     #[inline(always)]
-    fn distances_squared<L: Lanes>(chords: [&Self; LANES], point: Vector2<f64>) -> L {
+    fn away<L: Lanes>(chords: [&Self; LANES], points: Vectors<L>) -> Vectors<L> {
         let along = Vectors::<L>::of(chords.map(|chord| chord.along));
-        let offset = Vectors::splat(point) - Vectors::of(chords.map(|chord| chord.start));
+        let offset = points - Vectors::of(chords.map(|chord| chord.start));
         let fraction = L::new(chords.map(|chord| chord.per_squared)) * Plane::dot(&offset, &along);
-        let fraction = fraction.most(L::splat(0.0)).least(L::splat(1.0));
-        (offset - fraction * along).norm_squared()
+        offset - fraction.most(L::splat(0.0)).least(L::splat(1.0)) * along
     }
 }
 
@@ -82,22 +81,15 @@ impl Candidates {
         let (low, sides) = (low.add_scalar(-beyond), (high - low).add_scalar(2.0 * beyond));
         let side = (sides.x * sides.y / (SQUARES * pieces.len()).min(MOST_SQUARES) as f64).sqrt();
         let [columns, rows] = [sides.x, sides.y].map(|whole| libm::ceil(whole / side) as usize);
-        let table = Self {
-            low,
-            per_side: 1.0 / side,
-            columns,
-            rows,
-            squares: vec![0; columns * rows],
-            lists: vec![],
-            chords: vec![],
-        };
+        let chords = pieces.iter().map(Chord::of).chain([Chord::NOWHERE]).collect();
+        let table =
+            Self { low, per_side: 1.0 / side, columns, rows, squares: vec![0; columns * rows], lists: vec![], chords };
         let largest = low.abs().max().max((low + sides).abs().max());
         let slack = ROUNDING.0 * side + ROUNDING.1 * largest;
         let pending = (0..pieces.len() as u32).collect();
         let mut builder = Builder { pieces, table, side, slack, pending, distances: vec![] };
         builder.fill(0..columns, 0..rows, 0);
-        let chords = pieces.iter().map(Chord::of).chain([Chord::NOWHERE]).collect();
-        Self { chords, ..builder.table }
+        builder.table
     }
 
     /// All pieces that can be nearest to `point`, in order, and perhaps others; nothing where that is not known.
@@ -115,7 +107,8 @@ impl Candidates {
     /// Squared distances of the chords of a block of pieces from a point, m^2.
     #[inline(always)]
     pub(super) fn distances_squared<L: Lanes>(&self, block: &[u32; LANES], point: Vector2<f64>) -> L {
-        Chord::distances_squared(block.map(|index| &self.chords[index as usize]), point)
+        let chords = block.map(|index| &self.chords[index as usize]);
+        Chord::away(chords, Vectors::<L>::splat(point)).norm_squared()
     }
 }
 
@@ -176,11 +169,9 @@ impl Builder<'_> {
         // The points of the curve nearest to the corners, how far these may be from there, and the distance that is less than.
         let (mut nearest, mut off, mut least) = (corners, f64x4::ZERO, f64x4::splat(f64::INFINITY));
         self.distances.clear();
-        for piece in self.pending[begin..].iter().map(|index| &self.pieces[*index as usize]) {
-            let (chord, sagitta) = (piece.end - piece.start, f64x4::splat(piece.sagitta));
-            let offset = corners - Vectors::splat(piece.start);
-            let along = f64x4::splat(1.0 / chord.norm_squared()) * offset.dot(&Vectors::splat(chord));
-            let away = offset - along.max(f64x4::ZERO).min(f64x4::ONE) * Vectors::splat(chord);
+        for index in self.pending[begin..].iter().map(|index| *index as usize) {
+            let sagitta = f64x4::splat(self.pieces[index].sagitta);
+            let away = Chord::away([&self.table.chords[index]; LANES], corners);
             let distance = away.norm();
             let nearer = (distance + sagitta).simd_lt(least);
             nearest = (corners - away).or(nearer, &nearest);

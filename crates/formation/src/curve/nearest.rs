@@ -4,11 +4,8 @@ use super::minimum::{Least, Minimum, interior_minima, only_minimum, solve};
 use super::piece::Straight;
 use super::primitive::Jet;
 use super::{Curve, Foot};
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes, Work, in_widest};
 use nalgebra::Vector2;
-use wide::f64x4;
 
 /// Distances that differ by no more than this (times 1 m + the distance) are equal.
 const TIE: f64 = 1e-9;
@@ -44,6 +41,51 @@ pub(super) struct Best {
     jet: Option<Jet>,
 }
 
+/// The search for the best of some pieces: first that of the nearest chord, then those whose chords are no farther than they may lie off.
+struct Among<'a> {
+    curve: &'a Curve,
+    point: Vector2<f64>,
+    blocks: &'a [[u32; LANES]],
+}
+
+impl Work for Among<'_> {
+    type Output = Best;
+
+    #[inline(always)]
+    fn in_lanes<L: Lanes>(self) -> Best {
+        let Self { curve, point, blocks } = self;
+        let nothing = L::splat(f64::INFINITY);
+        let (mut squares, mut least, mut block_of) = ([nothing; BLOCKS], nothing, [0; LANES]);
+        for (offset, (square, block)) in squares.iter_mut().zip(blocks).enumerate() {
+            *square = curve.candidates.distances_squared::<L>(block, point);
+            let nearer = square.is_below(least).bits();
+            least = square.least(least);
+            block_of = core::array::from_fn(|lane| if nearer & 1 << lane != 0 { offset } else { block_of[lane] });
+        }
+        let least = least.to_array();
+        let (mut first, mut at) = (LANES * block_of[0], least[0]);
+        for lane in 1..LANES {
+            let place = LANES * block_of[lane] + lane;
+            (first, at) = if least[lane] < at { (place, least[lane]) } else { (first, at) };
+        }
+        let piece = |place: usize| blocks[place / LANES][place % LANES] as usize;
+        let mut best = curve.none_yet();
+        curve.look_at(point, piece(first), &mut best);
+        let far = L::splat(curve.most_square(curve.sagitta, &best));
+        // A bit for each other that is no farther.
+        let mut others = 0;
+        for (offset, square) in squares.iter().enumerate() {
+            others |= square.is_at_most(far).bits() << (LANES * offset);
+        }
+        others &= !(1 << first);
+        while others != 0 {
+            curve.improve(point, piece(others.trailing_zeros() as usize), &mut best);
+            others &= others - 1;
+        }
+        best
+    }
+}
+
 impl Curve {
     /// A nearest point of the curve: the one of least arc length if there are several on a par to the last bit.
     pub fn nearest(&self, point: Vector2<f64>) -> Foot {
@@ -68,53 +110,7 @@ impl Curve {
     /// The best of some pieces.
     #[inline]
     fn best_among(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
-        #[cfg(target_arch = "x86_64")]
-        if Avx::is_there() {
-            #[expect(unsafe_code, reason = "this processor has the instructions")]
-            return unsafe { self.best_by_avx(point, blocks) };
-        }
-        self.best_in::<f64x4>(point, blocks)
-    }
-
-    /// The same on processors with AVX2.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn best_by_avx(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
-        self.best_in::<Avx>(point, blocks)
-    }
-
-    /// The same in lanes of a kind: first that of the nearest chord, then those whose chords are no farther than they may lie off.
-    #[inline(always)]
-    fn best_in<L: Lanes>(&self, point: Vector2<f64>, blocks: &[[u32; LANES]]) -> Best {
-        let nothing = L::splat(f64::INFINITY);
-        let (mut squares, mut least, mut block_of) = ([nothing; BLOCKS], nothing, [0; LANES]);
-        for (offset, (square, block)) in squares.iter_mut().zip(blocks).enumerate() {
-            *square = self.candidates.distances_squared::<L>(block, point);
-            let nearer = square.is_below(least).bits();
-            least = square.least(least);
-            block_of = core::array::from_fn(|lane| if nearer & 1 << lane != 0 { offset } else { block_of[lane] });
-        }
-        let least = least.to_array();
-        let (mut first, mut at) = (LANES * block_of[0], least[0]);
-        for lane in 1..LANES {
-            let place = LANES * block_of[lane] + lane;
-            (first, at) = if least[lane] < at { (place, least[lane]) } else { (first, at) };
-        }
-        let piece = |place: usize| blocks[place / LANES][place % LANES] as usize;
-        let mut best = self.none_yet();
-        self.look_at(point, piece(first), &mut best);
-        let far = L::splat(self.most_square(self.sagitta, &best));
-        // A bit for each other that is no farther.
-        let mut others = 0;
-        for (offset, square) in squares.iter().enumerate() {
-            others |= square.is_at_most(far).bits() << (LANES * offset);
-        }
-        others &= !(1 << first);
-        while others != 0 {
-            self.improve(point, piece(others.trailing_zeros() as usize), &mut best);
-            others &= others - 1;
-        }
-        best
+        in_widest(Among { curve: self, point, blocks })
     }
 
     /// The best of all pieces, quickest if the piece `first` is near it.
@@ -171,7 +167,7 @@ impl Curve {
         }
     }
 
-    /// The same for a piece that is not straight.
+    /// The same for a piece of a curve that is not straight all over.
     #[inline(never)]
     fn look_at_bend(&self, point: Vector2<f64>, index: usize, best: &mut Best) {
         let piece = &self.pieces[index];
@@ -417,6 +413,7 @@ mod tests {
     use super::*;
     use crate::curve::CurveShape;
     use proptest::prelude::*;
+    use wide::f64x4;
 
     proptest! {
         /// What the squares of the grid are told misses nothing: near the curve and far, by chords and by bends, at joints and between them,
@@ -442,7 +439,8 @@ mod tests {
             for point in spots.chain(joints.iter().copied()) {
                 let Some(candidates) = curve.candidates.near(point) else { continue };
                 let of_all = curve.best_by_boxes(point);
-                for of_few in [curve.best_among(point, candidates), curve.best_in::<f64x4>(point, candidates)] {
+                let portable = Among { curve: &curve, point, blocks: candidates }.in_lanes::<f64x4>();
+                for of_few in [curve.best_among(point, candidates), portable] {
                     prop_assert_eq!((of_few.distance, of_few.piece, of_few.parameter), (of_all.distance, of_all.piece, of_all.parameter));
                     prop_assert_eq!(curve.beyond_ends(point, of_few), curve.beyond_ends(point, of_all));
                 }

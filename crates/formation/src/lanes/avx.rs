@@ -1,6 +1,6 @@
 //! Lanes in one register of AVX, for processors that have it, found out when the program runs.
 #![expect(unsafe_code, reason = "instructions that not every processor has: who uses them asks `Avx::is_there` first")]
-use super::{LANES, Lanes, Number, Vectors};
+use super::{LANES, Lanes, Number, Vectors, Work};
 use core::arch::x86_64::{
     __m256d, _CMP_LE_OQ, _CMP_LT_OQ, _CMP_NEQ_UQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd,
     _mm256_cmp_pd, _mm256_div_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
@@ -23,6 +23,12 @@ impl Avx {
         }
         std::arch::is_x86_feature_detected!("avx2")
     }
+}
+
+/// Work in these lanes.
+#[target_feature(enable = "avx2")]
+pub(super) fn run<W: Work>(work: W) -> W::Output {
+    work.in_lanes::<Avx>()
 }
 
 #[cfg(test)]

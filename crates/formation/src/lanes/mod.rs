@@ -2,13 +2,12 @@
 //! those of scalar code that does the same in the same order, bit for bit; what is written for any [`Number`] is that code for both.
 use crate::Vector2;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
+use wide::f64x4;
 
 #[cfg(target_arch = "x86_64")]
 mod avx;
 mod portable;
 
-#[cfg(target_arch = "x86_64")]
-pub(crate) use avx::Avx;
 #[cfg(all(test, target_arch = "x86_64"))]
 pub(crate) use avx::HIDDEN;
 
@@ -133,6 +132,36 @@ pub(crate) trait Lanes:
     fn is_whole(self) -> bool {
         self.bits() == (1 << LANES) - 1
     }
+}
+
+/// What is done in lanes of any kind, bit for bit alike.
+pub(crate) trait Work {
+    type Output;
+    /// To be `#[inline(always)]`, and all that is generic over the lanes in it: see [`in_widest`].
+    fn in_lanes<L: Lanes>(self) -> Self::Output;
+}
+
+/// Does work in the widest lanes that this processor has.
+#[inline]
+pub(crate) fn in_widest<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if avx::Avx::is_there() {
+        #[expect(unsafe_code, reason = "this processor has the instructions")]
+        return unsafe { avx::run(work) };
+    }
+    work.in_lanes::<f64x4>()
+}
+
+/// Where a value is first found in lanes that lie one after the other.
+#[inline(always)]
+pub(crate) fn first_at<L: Lanes>(all: impl Iterator<Item = L>, value: f64) -> Option<usize> {
+    for (index, lanes) in all.enumerate() {
+        let others = lanes.is_not(L::splat(value));
+        if !others.is_whole() {
+            return Some(LANES * index + others.bits().trailing_ones() as usize);
+        }
+    }
+    None
 }
 
 /// A vector in each lane.

@@ -8,13 +8,10 @@ use crate::agent::{Abreast, Agent, AgentSettings, Leader, Moment, Side, Surround
 use crate::curve::Placed;
 use crate::hull::{ApparentObstacle, Obstacle};
 use crate::kinematics::PointState;
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes, Work, in_widest};
 use crate::laws::RigidMotion;
 use crate::trench::Trench;
 use nalgebra::Isometry2;
-use wide::f64x4;
 
 /// How many robots ahead of those that act the segment is called for: pieces lie far apart in memory.
 const AHEAD: usize = 8;
@@ -46,25 +43,29 @@ pub(super) struct Part<'a, T> {
     pub(super) places: &'a mut [Vector2<f64>],
 }
 
+/// [`View::act`], in lanes of any kind.
+struct Step<'a, 'p, T> {
+    view: &'a View<'a, T>,
+    since: f64,
+    part: Part<'p, T>,
+}
+
+impl<T: Trench> Work for Step<'_, '_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn in_lanes<L: Lanes>(self) {
+        self.view.act_in::<L>(self.since, self.part);
+    }
+}
+
 impl<T: Trench> View<'_, T> {
     /// One step of some robots.
     pub(super) fn act(&self, since: f64, part: Part<'_, T>) {
-        #[cfg(target_arch = "x86_64")]
-        if Avx::is_there() {
-            #[expect(unsafe_code, reason = "this processor has the instructions")]
-            return unsafe { self.act_by_avx(since, part) };
-        }
-        self.act_in::<f64x4>(since, part);
+        in_widest(Step { view: self, since, part });
     }
 
-    /// The same on processors with AVX2.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn act_by_avx(&self, since: f64, part: Part<'_, T>) {
-        self.act_in::<Avx>(since, part);
-    }
-
-    /// The same in lanes of a kind, bit for bit.
+    /// The same in lanes of a kind.
     #[inline(always)]
     fn act_in<L: Lanes>(&self, since: f64, part: Part<'_, T>) {
         let (step, integration) = (self.scenario.step, self.scenario.options.integration);

@@ -113,9 +113,7 @@ impl Inputs {
 
     /// Where the other robots of a member's queue are seen, m, map.
     pub(crate) fn queue_seen(&self, member: &Member) -> impl Iterator<Item = Vector2<f64>> {
-        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
-        let others = members.filter(|other| other.queue == member.queue && other.robot != member.robot);
-        let seen = others.filter_map(|other| self.robot(&other.robot));
+        let seen = self.mates(member).filter_map(|other| self.robot(&other.robot));
         seen.filter(|seen| seen.status != RobotState::STATUS_LOST).map(|seen| Vector2::new(seen.x, seen.y))
     }
 
@@ -132,17 +130,20 @@ impl Inputs {
         members.iter().find(|member| member.robot == robot).map(|member| member.queue)
     }
 
+    /// The other robots of a member's queue.
+    pub(crate) fn mates(&self, member: &Member) -> impl Iterator<Item = &Member> {
+        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
+        members.filter(|other| other.queue == member.queue && other.robot != member.robot)
+    }
+
     /// How many robots of its chain come behind `member`.
     pub(crate) fn members_behind(&self, member: &Member) -> usize {
-        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
-        members.filter(|other| other.queue == member.queue && other.rank > member.rank).count()
+        self.mates(member).filter(|other| other.rank > member.rank).count()
     }
 
     /// Those ahead of `member` in its chain, its leader last.
     pub(crate) fn members_ahead(&self, member: &Member) -> impl Iterator<Item = &Member> {
-        let (queue, rank) = (member.queue, member.rank);
-        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
-        members.filter(move |other| other.queue == queue && other.rank < rank)
+        self.mates(member).filter(|other| other.rank < member.rank)
     }
 }
 

@@ -97,8 +97,7 @@ impl Inputs {
 
     /// Whether one of the other robots of the queue of `member` is heard; a robot that has none is not missing any.
     pub(crate) fn hears_of_queue(&self, member: &Member, now: Steady, age_limit: f64) -> bool {
-        let members = self.assignment.iter().flat_map(|assignment| &assignment.members);
-        let mut mates = members.filter(|other| other.queue == member.queue && other.robot != member.robot).peekable();
+        let mut mates = self.mates(member).peekable();
         mates.peek().is_none() || mates.any(|mate| self.others.said(&mate.robot, now, age_limit).is_some())
     }
 
